@@ -2,6 +2,7 @@
 #ifndef STRIDE_DRIVERS_REGISTRY_HPP
 #define STRIDE_DRIVERS_REGISTRY_HPP
 
+#include "drivers/can/schema.hpp"
 #include "drivers/dummy/schema.hpp"
 
 #include <array>
@@ -10,7 +11,7 @@
 /// Every driver by its folder, which is its namespace, too: it has a `kSchema` (schema.hpp),
 /// `makeDriver` and `driveDataLayout` (axis_drivers.hpp). A new driver: a name here, and the
 /// include of its schema above.
-#define STRIDE_AXIS_DRIVERS(DRIVER) DRIVER(dummy)
+#define STRIDE_AXIS_DRIVERS(DRIVER) DRIVER(dummy) DRIVER(can)
 
 namespace stride::drivers {
 

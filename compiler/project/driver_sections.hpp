@@ -106,6 +106,11 @@ void addParameters(const CheckedSection &section, std::string_view prefix,
 void readDriverTables(const CheckedSection &section, const RuleScope &scope,
                       std::vector<ConfigParameter> &parameters, Diagnostics &diagnostics);
 
+/// Reports what the driver of an axis group has to say of it (DriverSchema::check). The group has
+/// been read without errors; `cycleSeconds`: of its task.
+void checkByDriver(const ProjectConfig &config, const AxisGroupConfig &group, double cycleSeconds,
+                   Diagnostics &diagnostics);
+
 /// What driver and program share about a drive, as its section says; null: nothing.
 [[nodiscard]] const stride::bus::SharedData *sharedDataOf(const CheckedSection &drive,
                                                           std::string_view driver);

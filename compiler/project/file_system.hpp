@@ -10,6 +10,9 @@
 
 namespace stc {
 
+/// Permissions of a folder that nobody but the user may enter.
+inline constexpr unsigned kUserOnly = 0700;
+
 /// The whole file; nothing when it cannot be read (errno tells why).
 [[nodiscard]] std::optional<std::string> readFile(const std::filesystem::path &path);
 

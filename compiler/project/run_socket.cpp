@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kProjectFile = "stride.toml";
-constexpr mode_t kForUser = 0700;
 
 /// Where the user's sockets may be, the best place first. A run and `stride ctl` need not have been
 /// started from the same session, so the second place is the same for all of them.
@@ -62,7 +61,7 @@ fs::path projectPlace(const fs::path &path) {
 
 std::optional<fs::path> makeRunSocket(const fs::path &place, std::string &problem) {
   for (const fs::path &folder : socketFolders()) {
-    if (::mkdir(folder.c_str(), kForUser) == 0)
+    if (::mkdir(folder.c_str(), kUserOnly) == 0)
       problem.clear();
     else
       problem = errno == EEXIST ? whyUnfit(folder) : lastError();

@@ -3,6 +3,7 @@
 
 #include "compiler/project/config.hpp"
 #include "compiler/project/config_reader.hpp"
+#include "compiler/project/driver_sections.hpp"
 #include "compiler/source/suggest.hpp"
 #include "compiler/syntax/global_names.hpp"
 #include "compiler/syntax/st_text.hpp"
@@ -84,6 +85,7 @@ public:
       addDefaultTask(check == ProgramCheck::Runnable);
     else if (check != ProgramCheck::Skip)
       checkPrograms();
+    inOrder_ = !diagnostics_.hasErrors();
     for (AxisGroupConfig &group : config_.axisGroups)
       resolveGroup(group);
     for (AxisConfig &axis : config_.axes)
@@ -278,6 +280,8 @@ private:
     if (task->start != TaskStart::Event && task->start != TaskStart::Status)
       group.cycleUs = static_cast<uint32_t>(task->intervalNs / 1000);
     setTaskCycle(group, *seconds);
+    if (inOrder_)
+      checkByDriver(config_, group, *seconds, diagnostics_);
   }
 
   /// Whoever sends SYNC sets the pace: the task does, or waits for it.
@@ -343,6 +347,7 @@ private:
   std::vector<const ast::Decl *> programs_;
   Declarations declarations_;
   bool hadTasks_ = false;
+  bool inOrder_ = false; ///< No errors before the axis groups.
   std::unordered_set<const TaskConfig *> onBus_; ///< Started by the SYNC of their bus.
 };
 

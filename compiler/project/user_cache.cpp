@@ -46,8 +46,6 @@ constexpr auto kAbandoned = std::chrono::hours(24);
 constexpr auto kLongestWait = std::chrono::seconds(60);
 constexpr auto kLook = std::chrono::milliseconds(10);
 
-constexpr mode_t kForUser = 0700;
-
 /// Why somebody else could change what is in the folder; empty: nobody can.
 std::string whyNotPrivate(const fs::path &folder) {
   struct stat status {};
@@ -129,7 +127,7 @@ std::string whyReplaceable(const fs::path &folder) {
 }
 
 bool makeFolder(const fs::path &folder) {
-  return ::mkdir(folder.c_str(), kForUser) == 0 || errno == EEXIST;
+  return ::mkdir(folder.c_str(), kUserOnly) == 0 || errno == EEXIST;
 }
 
 /// Also the folders it lies in; whatever the umask is, they are the user's alone.

@@ -16,6 +16,9 @@ enum class ChannelStep : uint8_t { Idle = 0, Asked = 1, Driver = 2, Answered = 3
 /// ParameterChannel.byKind; as ParameterRequest::Kind.
 enum class ChannelKind : uint8_t { Read = 0, Write = 1, Describe = 2 };
 
+/// ParameterChannel.byForm; as ParameterForm.
+enum class ChannelForm : uint8_t { Number = 0, Bool = 1, Raw = 2 };
+
 /// ParameterChannel.byResult; as ParameterAnswer::Result.
 enum class ChannelResult : uint8_t {
   Done = 0,
@@ -44,8 +47,8 @@ inline void freeChannel(ParameterChannel &channel, uint32_t claim) noexcept {
 }
 
 /// Claims the channel and asks. The claim, or 0: the channel is occupied.
-inline uint32_t askDrive(AxisRef &axis, ChannelKind kind, int32_t number, bool boolean,
-                         double value) noexcept {
+inline uint32_t askDrive(AxisRef &axis, ChannelKind kind, int32_t number, ChannelForm form,
+                         double value, uint32_t bits = 0) noexcept {
   ParameterChannel &channel = axis.stChannel;
   uint32_t claim = __atomic_add_fetch(&channel.udiClaims, 1U, __ATOMIC_RELAXED);
   if (claim == 0)
@@ -57,8 +60,9 @@ inline uint32_t askDrive(AxisRef &axis, ChannelKind kind, int32_t number, bool b
   channel.bAbandoned = 0;
   channel.byKind = static_cast<uint8_t>(kind);
   channel.diNumber = number;
-  channel.bBool = boolean;
+  channel.byForm = static_cast<uint8_t>(form);
   channel.fValue = value;
+  channel.dwValue = bits;
   channel.uiCycles = 0;
   setChannelStep(channel, ChannelStep::Asked);
   return claim;

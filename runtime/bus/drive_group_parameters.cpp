@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint16_t kLongest = 1000; ///< Cycles: without an answer, or with one nobody fetches.
 
-/// What AXIS_REF.stChannel can carry.
+/// What AXIS_REF.stChannel can carry in a list.
 constexpr ParameterForms kChannelForms =
     formBit(ParameterForm::Number) | formBit(ParameterForm::Bool);
 
@@ -29,8 +29,10 @@ void finish(axis::ParameterChannel &channel, axis::ChannelResult result) {
 }
 
 void finish(axis::ParameterChannel &channel, const ParameterAnswer &answer) {
-  if (channel.byKind == static_cast<uint8_t>(axis::ChannelKind::Read))
+  if (channel.byKind == static_cast<uint8_t>(axis::ChannelKind::Read)) {
     channel.fValue = answer.value;
+    channel.dwValue = answer.raw;
+  }
   if (channel.byKind == static_cast<uint8_t>(axis::ChannelKind::Describe)) {
     channel.diDescribed = answer.number;
     channel.byType = static_cast<uint8_t>(answer.type);
@@ -65,8 +67,9 @@ void DriveGroup::serveParameters(size_t index) {
     ParameterRequest request;
     request.kind = static_cast<ParameterRequest::Kind>(channel.byKind);
     request.number = channel.diNumber;
-    request.form = channel.bBool != 0 ? ParameterForm::Bool : ParameterForm::Number;
+    request.form = static_cast<ParameterForm>(channel.byForm);
     request.value = channel.fValue;
+    request.raw = channel.dwValue;
     request.forms = kChannelForms;
     if (!isServed(axis) || !driver_->startParameter(index, request))
       return;

@@ -1,7 +1,8 @@
-// What compiler and runtime know of a driver before there is one. Data only: it needs no library.
+// What compiler and runtime know of a driver before there is one. Data, and a function on data.
 #ifndef STRIDE_RUNTIME_BUS_DRIVER_SCHEMA_HPP
 #define STRIDE_RUNTIME_BUS_DRIVER_SCHEMA_HPP
 
+#include "runtime/bus/group_check.hpp"
 #include "runtime/common/parameter.hpp"
 
 #include <span>
@@ -16,6 +17,8 @@ struct SharedData {
   std::string_view suffix = {}; ///< Of its name, after that of the drive.
   std::string_view what = {};   ///< For messages: "simulation of drive".
 };
+
+struct GroupSetup;
 
 struct DriverSchema {
   std::string_view name;          ///< The first word of InterfaceType.
@@ -32,6 +35,9 @@ struct DriverSchema {
   std::span<const common::ParameterTable> axisGroupTables = {};
   std::span<const common::ParameterTable> driveTables = {};
   std::span<const common::ParameterTable> encoderTables = {};
+  /// Appends what is to be said of a group that `stride check` has found in order so far; null:
+  /// nothing. A function of its arguments only, in a library that the compiler links.
+  void (*check)(const GroupSetup &setup, GroupFindings &findings) = nullptr;
 };
 
 } // namespace stride::bus

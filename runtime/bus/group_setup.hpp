@@ -28,6 +28,12 @@ struct EncoderSetup {
   SetupParameters parameters;
 };
 
+/// What a driver's bus is made of.
+enum class BusKind : uint8_t {
+  Simulated, ///< All of it is in this process, and goes by the cycles: the same bits each time.
+  Real,      ///< What the configuration names.
+};
+
 /// All values that stride.toml does not give are those of the driver's schema and of
 /// plc_schema.hpp.
 struct GroupSetup {
@@ -51,6 +57,7 @@ struct GroupSetup {
   std::string name;
   std::string bus;
   std::string interfaceType;
+  BusKind kind = BusKind::Simulated;
   double cycleSeconds = 0; ///< Of the group's task.
   SetupParameters busParameters;
   SetupParameters parameters;

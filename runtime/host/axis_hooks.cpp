@@ -4,6 +4,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/bus/drive_group.hpp"
 #include "runtime/host/error_names.hpp"
+#include "runtime/host/group_setups.hpp"
 #include "runtime/host/news_ring.hpp"
 #include "runtime/host/task_times.hpp"
 
@@ -284,46 +285,6 @@ private:
   bool shown_ = false;
 };
 
-void addParameters(const StrideAppV1 &app, uint32_t first, uint32_t count,
-                   bus::SetupParameters &to) {
-  for (uint32_t i = 0; i < count; ++i) {
-    const ParameterDesc &parameter = app.parameters[first + i];
-    to.add({parameter.name, parameter.text != nullptr ? parameter.text : "", parameter.number});
-  }
-}
-
-double cycleSecondsOf(const StrideAppV1 &app, const AxisGroupDesc &group) {
-  const TaskDesc &task = app.tasks[group.task];
-  const bool paced = task.kind == TaskKind::Cyclic || task.kind == TaskKind::Freewheeling;
-  return paced ? static_cast<double>(task.intervalNs) * 1e-9
-               : static_cast<double>(group.cycleUs) * 1e-6;
-}
-
-/// The configuration of an axis group as its driver gets it.
-bus::GroupSetup setupOf(const StrideAppV1 &app, const AxisGroupDesc &group,
-                        const bus::DriverSchema &schema) {
-  bus::GroupSetup setup(schema, cycleSecondsOf(app, group));
-  setup.name = group.name;
-  setup.bus = group.busName;
-  if (group.bus != kNoIndex) {
-    const BusDesc &bus = app.buses[group.bus];
-    setup.interfaceType = bus.interfaceType;
-    addParameters(app, bus.firstParameter, bus.parameterCount, setup.busParameters);
-  }
-  addParameters(app, group.firstParameter, group.parameterCount, setup.parameters);
-  for (uint32_t i = 0; i < group.driveCount; ++i) {
-    const DriveDesc &drive = app.drives[group.firstDrive + i];
-    addParameters(app, drive.firstParameter, drive.parameterCount,
-                  setup.addDrive(drive.name, drive.driveId).parameters);
-  }
-  for (uint32_t i = 0; i < group.encoderCount; ++i) {
-    const EncoderDesc &encoder = app.encoders[group.firstEncoder + i];
-    addParameters(app, encoder.firstParameter, encoder.parameterCount,
-                  setup.addEncoder(encoder.name, encoder.encoderId).parameters);
-  }
-  return setup;
-}
-
 const drivers::DriverEntry &driverOf(const AxisGroupDesc &group) {
   const drivers::DriverEntry *driver = drivers::findDriver(group.driverName);
   if (driver == nullptr)
@@ -353,15 +314,17 @@ app::RuntimeLayouts runtimeLayouts() {
           ::st::SM_DriveBasic::SMC_ENCODER_REF__layout__};
 }
 
-std::vector<std::unique_ptr<task::CycleHook>>
-addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs) {
+std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
+                                                            task::TaskSet &tasks, InputPort &inputs,
+                                                            bus::BusKind buses) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];
     const drivers::DriverEntry &driver = driverOf(group);
-    const bus::GroupSetup setup = setupOf(app, group, *driver.schema);
+    bus::GroupSetup setup = groupSetup(app, group, *driver.schema);
+    setup.kind = buses;
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(), driver.make(setup),

@@ -271,6 +271,7 @@ constexpr ErrorName kNames[] = {
     {12114, "SMC_CP_CIRCLE_RADIUS_TOO_SMALL"},
     {12115, "SMC_CP_CIRCLE_START_IS_END"},
     {12122, "SMC_AXIS_GROUP_SINGULAR_PATH"},
+    {12128, "SMC_CP_NO_AXIS_ORIENTATION"},
 };
 
 } // namespace

@@ -37,7 +37,8 @@ void Instance::initialise() {
   application_->settle();
   for (std::unique_ptr<task::CycleHook> &hook : addIoDevices(*application_, tasks_, *inputs_))
     hooks_.push_back(std::move(hook));
-  for (std::unique_ptr<task::CycleHook> &hook : addAxisGroups(*application_, tasks_, *inputs_))
+  for (std::unique_ptr<task::CycleHook> &hook :
+       addAxisGroups(*application_, tasks_, *inputs_, buses_))
     hooks_.push_back(std::move(hook));
 }
 

@@ -4,6 +4,7 @@
 
 #include "runtime/app/application.hpp"
 #include "runtime/app/symbols.hpp"
+#include "runtime/bus/group_setup.hpp"
 #include "runtime/host/input_port.hpp"
 #include "runtime/host/retain_keeper.hpp"
 #include "runtime/host/system_services.hpp"
@@ -29,6 +30,9 @@ public:
 
   /// Before initialise: where inputs pass on their way into the program. It lives longer.
   void setInputs(InputPort &inputs) { inputs_ = &inputs; }
+
+  /// Before initialise: drives are on the buses that the configuration names, not simulated ones.
+  void useRealBuses() { buses_ = bus::BusKind::Real; }
 
   /// Before initialise(): the folder for the program's files, in place of the application's own.
   void setFiles(std::string folder) { filesFolder_ = std::move(folder); }
@@ -94,6 +98,7 @@ private:
   std::vector<std::unique_ptr<task::CycleHook>> hooks_;
   LiveInputs live_;
   InputPort *inputs_ = &live_;
+  bus::BusKind buses_ = bus::BusKind::Simulated;
 };
 
 } // namespace stride::host

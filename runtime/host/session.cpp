@@ -44,6 +44,7 @@ Session::Session(std::unique_ptr<app::Application> application, size_t number,
   const StrideAppV1 &app = instance_.app();
   if (!options.files.empty())
     instance_.setFiles(options.files);
+  instance_.useRealBuses();
   RetainSettings retain = retainSettings(app);
   if (!options.retain.empty())
     retain.file = options.retain;

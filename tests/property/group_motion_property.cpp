@@ -21,11 +21,14 @@ using namespace stride::test;
 
 /// Drives random movements.
 class Drive {
+  static constexpr int kParts = 16; ///< Of a cycle, between which limits are looked at.
+
 public:
-  explicit Drive(unsigned seed)
+  /// `rarely`: of so many cycles one is looked at in parts.
+  Drive(unsigned seed, int rarely)
       : random_(seed), machine_(randomMachine(random_)), group_(std::make_unique<GroupMotion>()),
         cycle_(random_.magnitude(-3.3, -2.7)), arm_(machine_.arm()),
-        keep_(seed % 3 == 0 ? 0.03 * (seed % 8) : 0), atOnce_(seed % 2 == 0) {
+        keep_(seed % 3 == 0 ? 0.03 * (seed % 8) : 0), atOnce_(seed % 2 == 0), rarely_(rarely) {
     reset(*group_, machine_.home);
     std::copy(std::begin(machine_.home), std::end(machine_.home), planned_);
   }
@@ -53,6 +56,9 @@ public:
   }
 
   bool hasFailed() const { return failed_; }
+
+  /// At how many places the tool's path has been looked at.
+  int64_t looked() const { return looked_; }
 
 private:
   void randomAxes(double (&axes)[kAxes]) {
@@ -126,30 +132,57 @@ private:
     return lineLeg(from, to, more);
   }
 
+  /// One cycle. Now and then it is gone through in parts before, each of which is looked at.
   void step() {
-    double axes[kAxes];
-    double velocity[kAxes];
-    double acceleration[kAxes];
-    std::copy(std::begin(group_->axes), std::end(group_->axes), axes);
-    std::copy(std::begin(group_->velocity), std::end(group_->velocity), velocity);
-    std::copy(std::begin(group_->acceleration), std::end(group_->acceleration), acceleration);
     disturb();
     GroupCommand command{
         cycle_, override_, stopped_ > 0, 0, std::max(1, static_cast<int>(cycle_ * 64000)), 64};
     command.keep = keep_;
     command.atOnce = atOnce_;
-    cycle(*group_, arm_, command);
+    plan(*group_, arm_, command);
+    if (random_.chance(1.0 / rarely_))
+      lookAtParts(command);
+    goOnBy(command);
+    (void)rebase(*group_);
     relocate();
-    if (group_->obstacle != Obstacle::None) { // a line that the arm cannot follow
-      failed_ = true;
-      return;
+  }
+
+  /// A copy goes through the cycle in parts, and ends where the group will be.
+  void lookAtParts(GroupCommand command) {
+    auto copy = std::make_unique<GroupMotion>();
+    std::memcpy(copy.get(), group_.get(), sizeof(GroupMotion));
+    std::swap(group_, copy);
+    onLeg_ = nullptr;
+    command.cycle = cycle_ / kParts;
+    for (int part = 0; part < kParts && !failed_; ++part) {
+      goOnBy(command);
+      lookAtPath(command.cycle);
     }
+    std::swap(group_, copy);
+  }
+
+  void goOnBy(const GroupCommand &command) {
+    const GroupMotion &now = *group_;
+    double axes[kAxes];
+    double velocity[kAxes];
+    double acceleration[kAxes];
+    std::copy(std::begin(now.axes), std::end(now.axes), axes);
+    std::copy(std::begin(now.velocity), std::end(now.velocity), velocity);
+    std::copy(std::begin(now.acceleration), std::end(now.acceleration), acceleration);
+    goOn(*group_, arm_, command);
+    failed_ = now.obstacle != Obstacle::None; // a line that the arm cannot follow
+    if (failed_)
+      return;
     lookAtTool();
+    lookAtAxes(axes, velocity, acceleration, command.cycle);
+  }
+
+  void lookAtAxes(const double (&axes)[kAxes], const double (&velocity)[kAxes],
+                  const double (&acceleration)[kAxes], double t) {
     for (int k = 0; k < kAxes; ++k) {
       if (!isOfMachine(machine_, k))
         continue;
       const AxisLimits &limits = machine_.limits[k];
-      const double t = cycle_;
       const double change = group_->acceleration[k] - acceleration[k];
       const double moved = group_->axes[k] - axes[k];
       const double by = 0.5 * t * (velocity[k] + group_->velocity[k]);
@@ -165,6 +198,58 @@ private:
                       << limits.acceleration << ", jerk " << change / t << " of " << limits.jerk
                       << ", moved " << moved << " instead of " << by;
     }
+  }
+
+  /// How fast the tool's point is, and how fast that changes along its path: through the arm, from
+  /// the axes.
+  void measureTool(double &speed, double &change) const {
+    Series axes[kAxes]{};
+    for (int k = 0; k < machine_.joints; ++k) {
+      axes[k].c[0] = group_->axes[k];
+      axes[k].c[1] = group_->velocity[k];
+      axes[k].c[2] = 0.5 * group_->acceleration[k];
+    }
+    Frame<Series> tool;
+    EXPECT_EQ(arm_.kinematics.forward(axes, tool), kinematics::Outcome::Done);
+    double square = 0;
+    double product = 0;
+    for (int i = 0; i < 3; ++i) {
+      square += tool.place(i).c[1] * tool.place(i).c[1];
+      product += 2 * tool.place(i).c[1] * tool.place(i).c[2];
+    }
+    speed = std::sqrt(square);
+    change = speed > 0 ? product / speed : 0;
+  }
+
+  /// The tool keeps what the commands allow along its path: on legs all of it, in corners the
+  /// velocity.
+  void lookAtPath(double t) {
+    const Movement *const movement = activeOf(*group_);
+    const bool onLeg =
+        movement != nullptr && movement->leg.length > 0 &&
+        (movement->leg.kind == LegKind::Line || movement->leg.kind == LegKind::Circle) &&
+        group_->motion.way >= movement->begin + movement->corner.length;
+    if (movement == nullptr || !onLeg) {
+      onLeg_ = nullptr;
+      return;
+    }
+    const PathLimits &limits = movement->order.path;
+    double speed = 0;
+    double change = 0;
+    measureTool(speed, change);
+    const double jerk = onLeg_ == movement ? std::fabs(change - change_) / t : 0;
+    const bool good = speed <= limits.velocity * (1 + 1e-6) &&
+                      change <= limits.acceleration * (1 + 1e-6) &&
+                      -change <= limits.deceleration * (1 + 1e-6) &&
+                      jerk <= limits.jerk * (1 + 1e-4) + 1e-6 * limits.acceleration / t;
+    if (!good)
+      ADD_FAILURE() << "the tool at way " << group_->motion.way << ", movement " << group_->first
+                    << ": velocity " << speed << " of " << limits.velocity << ", acceleration "
+                    << change << " of " << limits.acceleration << " and " << limits.deceleration
+                    << ", jerk " << jerk << " of " << limits.jerk;
+    onLeg_ = movement;
+    change_ = change;
+    ++looked_;
   }
 
   /// Along a line or a circle, the tool is on it.
@@ -225,12 +310,16 @@ private:
   Arm arm_;
   double keep_;
   bool atOnce_;
+  int rarely_;
   double planned_[kAxes];
   std::vector<Order> factors_;
   double override_ = 1;
   int stopped_ = 0;
   int left_ = 0;
   bool failed_ = false;
+  const Movement *onLeg_ = nullptr; ///< Where the tool was in the part before; null: no leg.
+  double change_ = 0;               ///< See measureTool: in that part. [u/s^2]
+  int64_t looked_ = 0;
 };
 
 /// More cases by hand: STRIDE_GROUP_CASES=10000.
@@ -242,14 +331,19 @@ int wanted(int cases) {
 TEST(GroupMotion, KeepsLimitsAndArrives) {
   const char *const only = std::getenv("STRIDE_GROUP_CASE");
   const int cases = wanted(100);
+  const int rarely = std::getenv("STRIDE_GROUP_CASES") != nullptr ? 1 : 32;
   int failed = 0;
+  int64_t looked = 0;
   for (int i = only != nullptr ? std::atoi(only) : 0; i < cases && !HasFailure(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i);
-    Drive drive(1000U + static_cast<unsigned>(i));
+    Drive drive(1000U + static_cast<unsigned>(i), rarely);
     drive.run(6);
     failed += drive.hasFailed() ? 1 : 0;
+    looked += drive.looked();
   }
-  printf("%d of %d met an obstacle\n", failed, cases);
+  printf("%d of %d met an obstacle; the tool's path at %lld places\n", failed, cases,
+         static_cast<long long>(looked));
+  EXPECT_GE(looked, int64_t{1000} * cases);
   EXPECT_LE(failed, cases / 5);
 }
 
@@ -307,6 +401,39 @@ TEST(GroupMotion, MovesAxesInTheShortestTime) {
     // The end of a long one is planned later, so that a corner is still possible.
     EXPECT_LE(taken, (time < 0.3 ? 1 : 1.03) * time + 3 * kCycle) << "case " << i;
   }
+}
+
+/// Along a corner between two lines the tool is about as fast as the motion along its way, so that
+/// a seam is welded, or glue laid, evenly.
+TEST(GroupMotion, CornersAreGoneThroughEvenly) {
+  using stride::numeric::norm;
+  double worst = 0;
+  for (int i = 0; i < casesOf(500); ++i) {
+    Random random(9000U + static_cast<unsigned>(i));
+    const double turn = random.uniform(0, 0.5 * M_PI);
+    const double side = random.uniform(-M_PI, M_PI);
+    Pose poses[3]{};
+    for (Pose &pose : poses)
+      stride::group::setRows(pose.turn, Matrix<double>::Identity());
+    const double first = random.magnitude(1, 2.5);
+    const double second = random.magnitude(1, 2.5);
+    poses[1].place = {first, 0, 0};
+    poses[2].place =
+        poses[1].place + Vector3{second * std::cos(turn), second * std::sin(turn) * std::cos(side),
+                                 second * std::sin(turn) * std::sin(side)};
+    const double cut = 0.5 * std::min(first, second) * random.uniform(0.01, 1);
+    const Corner corner =
+        toolCorner(lineLeg(poses[0], poses[1], {}), cut, lineLeg(poses[1], poses[2], {}), cut);
+    for (int n = 0; n <= 200; ++n) {
+      PathPlace place;
+      placeAt(corner, growing(corner.length * n / 200, 1.0), place);
+      const double speed =
+          norm({place.tool.place(0).c[1], place.tool.place(1).c[1], place.tool.place(2).c[1]});
+      worst = std::max(worst, std::fabs(speed - 1));
+      EXPECT_NEAR(speed, 1, 0.0025) << "case " << i << ", turn " << turn << ", at " << n;
+    }
+  }
+  printf("the tool's velocity changes by %.5f at most\n", worst);
 }
 
 } // namespace

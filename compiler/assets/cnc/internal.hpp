@@ -72,6 +72,8 @@ public:
   void pass(const stride::cnc::SentenceWords &sentence);
   /// It has jumped from `position`. True: it will do so for ever.
   bool jumpsForEver(int64_t position, int16_t counter);
+  /// No variable has decided about a jump yet.
+  [[nodiscard]] bool isDecided() const { return decided_; }
 
 private:
   bool decided_ = true;

@@ -3,7 +3,7 @@
 #include "compiler/assets/cnc_edit/transform.hpp"
 
 #include "compiler/assets/cnc/internal.hpp"
-#include "compiler/assets/cnc_edit/word_edits.hpp"
+#include "compiler/assets/cnc_edit/repeated_edits.hpp"
 
 #include "runtime/numeric/cnc/decoder.hpp"
 
@@ -24,6 +24,9 @@ constexpr std::string_view kCentre = "IJK";
 
 /// Places that are closer are the same. [u]
 constexpr double kSame = 1e-6;
+
+/// Jumps are followed so far.
+constexpr size_t kMostJumps = 1'000'000;
 
 using Place = std::array<double, kAxes>;
 
@@ -61,13 +64,24 @@ public:
 
   std::optional<std::string> run() {
     startDecoder(*decoder_, Position{});
+    size_t left = kMostJumps;
     for (int64_t at = 0; at < sentences_.size();) {
-      at = sentences_.at(at, sentence_);
+      const int64_t begin = at;
+      at = sentences_.at(begin, sentence_);
+      watch_.pass(sentence_);
       decodeSentence(*decoder_, sentence_.words, sentence_.count, sentence_.line, *decoded_);
       if (sentence_.count > 0)
-        step();
+        visit(begin);
+      if (decoded_->next != Next::Jump)
+        continue;
+      // After an error what a loop does once more says nothing new.
+      if (failed() || watch_.jumpsForEver(begin, decoder_->counter))
+        break;
+      at = sentences_.find(decoded_->target);
+      if (at < 0 || !checkLength(left))
+        break;
     }
-    return diagnostics_.errorCount() == errors_ ? std::optional(edits_.apply()) : std::nullopt;
+    return failed() ? std::nullopt : std::optional(edits_.apply());
   }
 
 private:
@@ -84,6 +98,29 @@ private:
               const std::string &help) {
     gcode::refuseEdit(word.span, message, label, help, diagnostics_);
   }
+  void refuseRepeated(const CncWord &word, const std::string &label) {
+    refuse(word, "jumps lead here in several ways, and each needs another text", label,
+           "write the sentences of the loop one after another, or move the coordinates with G54");
+  }
+  [[nodiscard]] bool failed() const { return diagnostics_.errorCount() != errors_; }
+
+  /// A sentence is carried out.
+  void visit(int64_t begin) {
+    edits_.begin(begin);
+    const size_t errors = diagnostics_.errorCount();
+    step();
+    if (diagnostics_.errorCount() == errors && !edits_.end())
+      refuseRepeated(*anchorOf(), "another time its words would have to change");
+  }
+
+  /// How many more sentences may come, at a jump.
+  bool checkLength(size_t &left) {
+    if (left-- > 0)
+      return true;
+    refuse(*anchorOf(), "this program jumps too often to be followed", "reached up to here",
+           fmt::format("programs of up to {} jumps can be moved", kMostJumps));
+    return false;
+  }
 
   /// Whether a transform changes coordinates of an axis; `ways`: differences of them.
   [[nodiscard]] bool changes(size_t axis, bool ways) const {
@@ -97,8 +134,8 @@ private:
     return false;
   }
 
-  /// Gives a word another value.
-  void set(const CncWord &word, double value) {
+  /// Gives a word another value. The value that it has then.
+  double set(const CncWord &word, double value) {
     if (!word.variable.empty())
       refuse(word, "a variable says this value, which would have to change",
              fmt::format("`${}$`", word.variable),
@@ -107,19 +144,32 @@ private:
     else if (!gcode::isWritable(value))
       refuse(word, "the new value of this word is too large", fmt::format("{:g}", value),
              "values are less than 1e12");
+    else if (const std::optional<double> read = edits_.setNumber(word, value))
+      return *read;
     else
-      edits_.setNumber(word, gcode::numberText(value));
+      refuseRepeated(word, fmt::format("would have to be {:g} now", value));
+    return value;
   }
 
-  /// Sets the word with the letter, which is put behind `anchor` if the sentence has none.
-  void write(char letter, double value, const CncWord &anchor) {
+  /// Sets the word with the letter, which is put behind `anchor` if the sentence has none. The
+  /// value that it has then.
+  double write(char letter, double value, const CncWord &anchor) {
     if (const CncWord *word = find(letter))
-      set(*word, value);
-    else if (!gcode::isWritable(value))
+      return set(*word, value);
+    if (!gcode::isWritable(value))
       refuse(anchor, "a new word of this sentence is too large", fmt::format("{:g}", value),
              "values are less than 1e12");
+    else if (const std::optional<double> read = edits_.insertAfter(anchor, letter, value))
+      return *read;
     else
-      edits_.insertAfter(anchor, letter + gcode::numberText(value));
+      refuseRepeated(anchor, fmt::format("would need {}{:g} now", letter, value));
+    return value;
+  }
+  /// Whether the sentence's word with the letter was new or was changed when it was carried out
+  /// before.
+  [[nodiscard]] bool wasWritten(char letter) const {
+    const CncWord *word = find(letter);
+    return word != nullptr ? edits_.changed(*word) : edits_.inserted(letter);
   }
 
   /// Behind which word new ones may stand: an axis, a centre, the function, the number.
@@ -139,8 +189,8 @@ private:
     if (g != nullptr && !checkFunction(*g, function))
       return;
     if (function == 41 || function == 42) {
-      if (swapsDirections())
-        set(*g, 83 - function);
+      if (swapsDirections() || edits_.changed(*g))
+        set(*g, swapsDirections() ? 83 - function : function);
       return;
     }
     if (g == nullptr)
@@ -154,12 +204,8 @@ private:
 
   /// What cannot be moved. False: it is reported.
   bool checkFunction(const CncWord &g, int32_t function) {
-    if (function == 20) {
-      refuse(g, "a program with jumps cannot be moved",
-             "where the path is depends on where it came from",
-             "write the sentences of the loop one after another, or move the coordinates with G54");
+    if (function == 20 && !checkJump(g))
       return false;
-    }
     if (function >= 54 && function <= 56) {
       refuse(g, "the program moves its coordinates itself", "its words are not places of the path",
              "change the words of this sentence, or take it away");
@@ -171,6 +217,23 @@ private:
       return false;
     }
     return true;
+  }
+
+  /// Whether it is known now where a jump leads.
+  bool checkJump(const CncWord &g) {
+    const CncWord *decides = watch_.isDecided() ? nullptr : &g;
+    for (const char letter : {'K', 'L'})
+      if (const CncWord *word = find(letter); word != nullptr && !word->variable.empty())
+        decides = word;
+    if (decides != nullptr)
+      refuse(*decides, "a variable decides about this jump", "where the path goes on is not known",
+             "the counter (G36, G37 without O) with numbers can decide");
+    else if (sentence_.skip && (isAstray() || transform_.turns))
+      refuse(g, "this jump may be suppressed, and others depend on it",
+             "where the path goes on is not known", "take the / or the sentence away");
+    else
+      return true;
+    return false;
   }
 
   /// Whether clockwise becomes counterclockwise, seen along the normal of the plane.
@@ -185,10 +248,11 @@ private:
     int32_t wanted = function;
     if ((isArc(function) || isEllipticArc(function)) && swapsDirections())
       wanted = isArc(function) ? 5 - function : 17 - function;
-    if (g != nullptr && wanted != function)
+    if (g != nullptr && (wanted != function || edits_.changed(*g)))
       set(*g, wanted);
-    else if (g == nullptr && wanted != motion_ && isTarget(function))
-      edits_.insertAfter(*anchorOf(), fmt::format("G{}", wanted));
+    else if (g == nullptr && isTarget(function) &&
+             !edits_.keepFunction(*anchorOf(), wanted, wanted != motion_))
+      refuseRepeated(*anchorOf(), fmt::format("would have to be G{} now", wanted));
     if (function != 31 && (g != nullptr || isTarget(function)))
       motion_ = wanted;
   }
@@ -269,7 +333,8 @@ private:
       const bool named = has(kLetters[axis]);
       const bool astray = std::abs(wanted[axis] - new_[axis]) > kSame;
       const bool relative = decoder_->relative;
-      if (relative && named && !astrayAxis(axis) && !changes(axis, true)) {
+      const bool written = wasWritten(kLetters[axis]);
+      if (relative && named && !written && !astrayAxis(axis) && !changes(axis, true)) {
         new_[axis] += target[axis] - old_[axis]; // it stays, be it a variable
         continue;
       }
@@ -281,11 +346,10 @@ private:
         new_[axis] = wanted[axis];
         continue;
       }
-      if (!named && !astray && !(both && axis < 2))
+      if (!named && !written && !astray && !(both && axis < 2))
         continue;
       const double value = relative ? wanted[axis] - new_[axis] : wanted[axis];
-      write(kLetters[axis], value, anchor);
-      const double read = gcode::isWritable(value) ? gcode::roundedNumber(value) : 0;
+      const double read = write(kLetters[axis], value, anchor);
       new_[axis] = opening ? wanted[axis] : read + (relative ? new_[axis] : 0);
     }
   }
@@ -311,7 +375,7 @@ private:
     const Place wanted = moved(transform, centre);
     const bool both = transform_.turns && (has('I') || has('J'));
     for (size_t i = 0; i < places; ++i)
-      if (changes(i, !absolute) && (has(kCentre[i]) || (both && i < 2)))
+      if ((changes(i, !absolute) && (has(kCentre[i]) || (both && i < 2))) || wasWritten(kCentre[i]))
         write(kCentre[i], wanted[i], *anchorOf());
     const CncWord *radius = find('R');
     if (radius != nullptr && isArc(function) && transform_.factor != 1)
@@ -326,8 +390,8 @@ private:
     const double direction = word != nullptr ? word->word.value : 0;
     if (transform_.turns)
       write('K', direction + transform_.angle, *anchorOf());
-    else if (swapsDirections() && word != nullptr)
-      set(*word, -direction);
+    else if (word != nullptr && (swapsDirections() || edits_.changed(*word)))
+      set(*word, swapsDirections() ? -direction : direction);
   }
 
   /// L of switch points are ways.
@@ -343,8 +407,9 @@ private:
   const CncTransform &transform_;
   Diagnostics &diagnostics_;
   size_t errors_ = diagnostics_.errorCount();
-  gcode::WordEdits edits_;
+  gcode::RepeatedEdits edits_;
   gcode::Sentences sentences_;
+  gcode::JumpWatch watch_;
   std::unique_ptr<Decoder> decoder_ = std::make_unique<Decoder>();
   std::unique_ptr<Decoded> decoded_ = std::make_unique<Decoded>();
   SentenceWords sentence_{};

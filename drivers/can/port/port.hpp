@@ -67,6 +67,10 @@ public:
   /// A port without a clock of its own does not wait either. [ns]
   virtual bool wait(int64_t /*monotonicNs*/) noexcept { return false; }
 
+  /// Process frames of cycles before this one that have not left the controller yet, as far as the
+  /// port sees that. Known after receive().
+  [[nodiscard]] virtual size_t unconfirmed() const noexcept { return 0; }
+
   [[nodiscard]] virtual ControllerState state() const noexcept = 0;
   /// Why the interface is down, for people; empty: it is not, or nobody knows.
   [[nodiscard]] virtual std::string_view problem() const noexcept { return {}; }

@@ -50,23 +50,118 @@ void look(Carrier &carrier, double cycle) noexcept {
   carrier.fVelocity = velocity;
 }
 
-group::MovingSystem movingSystem(const Carrier &carrier, const Frame<double> &world) {
+group::MovingSystem &masterAt(GroupRef &group, int32_t carrier) noexcept {
+  return stateOf(group).master[carrier - 1];
+}
+const group::MovingSystem &masterAt(const GroupRef &group, int32_t carrier) noexcept {
+  return stateOf(group).master[carrier - 1];
+}
+
+numeric::Vector3 turned(const Frame<double> &frame, const numeric::Vector3 &v) noexcept {
+  return group::plain(frame.turn * group::vectorOf(v));
+}
+
+/// The same system in another frame.
+group::MovingSystem systemFrom(const Frame<double> &frame, const group::MovingSystem &system) {
+  group::MovingSystem moved = system;
+  moved.origin = group::poseOf(frame * group::frameOf(system.origin));
+  moved.tool.velocity = turned(frame, system.tool.velocity);
+  moved.tool.acceleration = turned(frame, system.tool.acceleration);
+  moved.tool.spin = turned(frame, system.tool.spin);
+  moved.tool.spinChange = turned(frame, system.tool.spinChange);
+  return moved;
+}
+
+/// The system on a carrier in a frame in which the world is at `world`.
+group::MovingSystem movingSystem(const GroupRef &group, int32_t index, const Frame<double> &world) {
+  const Carrier &carrier = carrierAt(group, index);
+  if (carrier.pMaster != nullptr)
+    return systemFrom(world, masterAt(group, index));
   return {group::poseOf(world * frameOf(carrier.stOrigin)),
           group::poseOf(frameOf(carrier.stObject)),
-          carrier.bTable != 0 ? group::CarrierKind::Table : group::CarrierKind::Belt};
+          carrier.bTable != 0 ? group::CarrierKind::Table : group::CarrierKind::Belt,
+          {}};
+}
+
+/// The tool of a group in the world as a series in time, from the set values of its axes.
+kinematics::Outcome toolInWorld(const GroupRef &group, const group::Arm &arm,
+                                Frame<group::Series> &tool) {
+  group::Series axes[kAxes] = {};
+  for (int32_t i = 0; i < arm.joints; ++i) {
+    const AxisRef &axis = *group.apAxis.v[i];
+    axes[i] = group::inTime({axis.fSetPosition, axis.fSetVelocity, axis.fSetAcceleration});
+  }
+  const kinematics::Outcome outcome = arm.kinematics.forward(axes, tool);
+  tool = group::seriesOf(frameOf(group.astSystem.v[0])) * tool;
+  return outcome;
+}
+
+/// Where the master's tool is in this cycle. An SMC_ERROR: where it was is where it stays.
+int16_t lookAtMaster(Ctx &ctx, GroupRef &group, int32_t index) {
+  const Carrier &carrier = carrierAt(group, index);
+  GroupRef &master = *carrier.pMaster;
+  serve(ctx, master);
+  group::MovingSystem &system = masterAt(group, index);
+  system.tool = {carrier.fWay, {}, {}, {}, {}};
+  if (master.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  const GroupArm arm(ctx, master);
+  if (arm.outcome != kinematics::Outcome::Done)
+    return kinematics::errorOf(arm.outcome);
+  Frame<group::Series> tool;
+  if (const kinematics::Outcome outcome = toolInWorld(master, arm.arm, tool);
+      outcome != kinematics::Outcome::Done)
+    return kinematics::errorOf(outcome);
+  system.kind = group::CarrierKind::Tool;
+  system.object = group::poseOf(frameOf(carrier.stObject));
+  system.tool = group::motionOf(tool, carrier.fWay, system.origin);
+  return 0;
+}
+
+/// Whether a group is followed by another one, at whatever remove.
+bool isFollowedBy(const GroupRef &group, const GroupRef &other, int32_t depth) noexcept {
+  constexpr int32_t kMostDepth = 16;
+  if (&group == &other || depth == kMostDepth)
+    return true;
+  for (const Carrier &carrier : other.astCarrier.v)
+    if (carrier.pMaster != nullptr && isFollowedBy(group, *carrier.pMaster, depth + 1))
+      return true;
+  return false;
+}
+
+/// Whether PCS_1 or PCS_2 cannot be put on a carrier now: an SMC_ERROR.
+int16_t whyNotSet(const GroupRef &group, int16_t system) noexcept {
+  if (settableSystem(system) <= 0)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  return isInUse(group, system) ? error::SMC_ERROR__SMC_AXIS_GROUP_PCS_STILL_IN_USE : int16_t{0};
 }
 
 } // namespace
 
 int32_t carrierOf(const GroupRef &group, int16_t system) noexcept {
   const int32_t index = settableSystem(system);
-  return index > 0 && carrierAt(group, index).pAxis != nullptr ? index : 0;
+  if (index <= 0)
+    return 0;
+  const Carrier &carrier = carrierAt(group, index);
+  return carrier.pAxis != nullptr || carrier.pMaster != nullptr ? index : 0;
 }
 
-void lookAtCarriers(GroupRef &group) noexcept {
-  for (int32_t i = 1; i <= kCarriers; ++i)
-    if (Carrier &carrier = carrierAt(group, i); carrier.pAxis != nullptr)
-      look(carrier, group.apAxis.v[0]->fTaskCycle);
+void lookAtCarriers(Ctx &ctx, GroupRef &group) {
+  const double cycle = group.apAxis.v[0]->fTaskCycle;
+  for (int32_t i = 1; i <= kCarriers; ++i) {
+    Carrier &carrier = carrierAt(group, i);
+    if (carrier.pAxis != nullptr)
+      look(carrier, cycle);
+    if (carrier.pMaster == nullptr)
+      continue;
+    carrier.fWay += cycle; // of a tool the time counts
+    (void)lookAtMaster(ctx, group, i);
+    GroupState &state = stateOf(group);
+    if (state.rides == i)
+      state.motion.ride.system = systemOn(group, i);
+  }
 }
 
 motion::State stateOfCarrier(const GroupRef &group, int32_t carrier) noexcept {
@@ -77,32 +172,48 @@ motion::State stateOfCarrier(const GroupRef &group, int32_t carrier) noexcept {
 group::MovingSystem systemOn(const GroupRef &group, int32_t carrier) {
   Frame<double> world;
   (void)systemInMachine(group, decl::SMC_COORD_SYSTEM__WCS, world);
-  return movingSystem(carrierAt(group, carrier), world);
+  return movingSystem(group, carrier, world);
 }
 
 Frame<double> systemInWorld(const GroupRef &group, int32_t carrier) {
-  const Carrier &on = carrierAt(group, carrier);
   const group::MovingSystem system =
-      movingSystem(on, kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0)));
-  return group::valueOf(group::systemAt(system, group::Series(on.fWay)));
+      movingSystem(group, carrier, kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0)));
+  return group::valueOf(group::systemAt(system, group::Series(carrierAt(group, carrier).fWay)));
 }
 
 int16_t setCarrier(GroupRef &group, int16_t system, const Carrier &on) {
-  const int32_t index = settableSystem(system);
-  if (index <= 0)
-    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled || on.pAxis == nullptr)
+  if (const int16_t wrong = whyNotSet(group, system); wrong != 0)
+    return wrong;
+  if (on.pAxis == nullptr)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
-  if (isInUse(group, system))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_PCS_STILL_IN_USE;
   for (int32_t i = 0; i < group.uiAxes; ++i)
     if (group.apAxis.v[i] == on.pAxis) // it would follow itself
       return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  Carrier &carrier = carrierAt(group, index);
+  Carrier &carrier = carrierAt(group, settableSystem(system));
   carrier = on;
   carrier.fAxis = positionOf(on);
   carrier.fVelocity = on.bActual != 0 ? on.pAxis->fActVelocity : on.pAxis->fSetVelocity;
   return 0;
+}
+
+int16_t setMaster(Ctx &ctx, GroupRef &group, int16_t system, GroupRef *master,
+                  const decl::MC_COORD_REF &onTool) {
+  if (const int16_t wrong = whyNotSet(group, system); wrong != 0)
+    return wrong;
+  if (master == nullptr)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  if (isFollowedBy(group, *master, 0))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+  const int32_t index = settableSystem(system);
+  Carrier &carrier = carrierAt(group, index);
+  carrier = {};
+  carrier.pMaster = master;
+  carrier.stObject = onTool;
+  carrier.fVelocity = 1.0; // of time
+  const int16_t wrong = lookAtMaster(ctx, group, index);
+  if (wrong != 0)
+    carrier = {};
+  return wrong;
 }
 
 bool isInUse(const GroupRef &group, int16_t system) noexcept {

@@ -12,8 +12,8 @@ inline constexpr int32_t kCarriers = 2;
 /// Which of them a system is, 1 or 2; 0: it is none of these, or does not move.
 int32_t carrierOf(const GroupRef &group, int16_t system) noexcept;
 
-/// Looks where the carriers are in this cycle.
-void lookAtCarriers(GroupRef &group) noexcept;
+/// Looks where the carriers are in this cycle; other groups whose tools are carriers go on before.
+void lookAtCarriers(Ctx &ctx, GroupRef &group);
 
 /// How far a carrier (1 or 2) is since its system is tracked, and how it moves. [u], [°]
 motion::State stateOfCarrier(const GroupRef &group, int32_t carrier) noexcept;
@@ -27,6 +27,10 @@ kinematics::Frame<double> systemInWorld(const GroupRef &group, int32_t carrier);
 /// Puts PCS_1 or PCS_2 on a carrier, from now on. An SMC_ERROR.
 int16_t setCarrier(GroupRef &group, int16_t system,
                    const ::st::SM3_Robotics::SMC_GROUP_CARRIER &on);
+
+/// Puts PCS_1 or PCS_2 on another group's tool, from now on. An SMC_ERROR.
+int16_t setMaster(Ctx &ctx, GroupRef &group, int16_t system, GroupRef *master,
+                  const ::st::SM3_Robotics::MC_COORD_REF &onTool);
 
 /// Whether movements are in PCS_1 or PCS_2, or will be.
 bool isInUse(const GroupRef &group, int16_t system) noexcept;

@@ -174,6 +174,7 @@ template <class Block> void run(::stride::Ctx &ctx, Block &block, bool relative)
     robotics::fillCoordinates(block.EndPoint, request.position);
     robotics::fillModes(block, request);
     robotics::fillPath(block, request);
+    robotics::fillOrientation(block, request);
   });
 }
 

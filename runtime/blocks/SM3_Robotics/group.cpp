@@ -138,7 +138,9 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) noexcept {
     state.rest = group::nextRest(state.motion);
   updateTriggers(ctx, state, cycle);
   group::goOn(state.motion, arm.arm, command);
-  shiftTriggers(state, group::rebase(state.motion));
+  const double by = group::rebase(state.motion);
+  shiftTriggers(state, by);
+  state.uncapped -= by;
   if (state.motion.obstacle != Obstacle::None) {
     failGroup(group, errorOf(state.motion.obstacle), failedMovement(state));
     return;
@@ -158,7 +160,7 @@ void settle(GroupRef &group) noexcept {
   endTriggers(state);
   forgetSystems(state);
   if (!state.motion.abandoned)
-    group::clear(state.motion);
+    clearMotion(state);
   endMoving(group);
 }
 
@@ -201,6 +203,7 @@ void beginMoving(GroupRef &group) noexcept {
   group::reset(state.motion, axes);
   state.abortedEnd = state.abortedRequest;
   state.tool = toolOf(group);
+  state.uncapped = 0.0;
   takeAxes(group);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupMoving;
 }
@@ -216,7 +219,7 @@ void serve(Ctx &ctx, GroupRef &group) {
     failGroup(group, problem, 0);
     return;
   }
-  lookAtCarriers(group);
+  lookAtCarriers(ctx, group);
   GroupArm arm(ctx, group);
   takeRequests(group, arm);
   if (group.bOwns != 0)

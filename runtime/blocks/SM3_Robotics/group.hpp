@@ -48,6 +48,8 @@ struct Request {
   int16_t system;            ///< SMC_COORD_SYSTEM
   int16_t bufferMode;        ///< MC_BUFFER_MODE
   double position[kArmAxes]; ///< Of axes, or a pose by X, Y, Z, A, B, C. [u], [°]
+  int16_t orientationMode;   ///< SMC_ORIENTATION_MODE
+  double torqueFactor;       ///< Of a movement; nothing depends on it.
   int16_t circleMode;        ///< Circular: SMC_CIRC_MODE
   int16_t pathChoice;        ///< Circular: MC_CIRC_PATHCHOICE
   double aux[kArmAxes]; ///< Circular: AuxPoint, like `position`. Jog: how far at most [u], [°].
@@ -72,12 +74,21 @@ struct GroupState {
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
   Tool tool;                       ///< Of the movements.
-  uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
-  bool interrupting;  ///< It comes to rest to be continued later.
+  uint64_t resumable;            ///< The last cycle, plus 1, in which errors were to be resumable.
+  bool interrupting;             ///< It comes to rest to be continued later.
+  group::MovingSystem master[2]; ///< PCS_1 and PCS_2 in WCS, if they are on other groups' tools.
+  double uncapped; ///< Way of the motion up to which ancillary limits of axes are not planned
+                   ///< with. [u]
   Triggers triggers;
   double forecast;       ///< How much of the motion is planned, since the start of the cycle. [s]
   group::GroupRest rest; ///< The next one, since then.
 };
+
+/// Forgets the movements of a group at rest.
+inline void clearMotion(GroupState &state) noexcept {
+  group::clear(state.motion);
+  state.uncapped = 0.0;
+}
 
 GroupState &stateOf(GroupRef &group) noexcept;
 const GroupState &stateOf(const GroupRef &group) noexcept;

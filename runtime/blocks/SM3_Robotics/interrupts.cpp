@@ -120,6 +120,7 @@ bool isAt(const GroupRef &group, const ContinueData &content) noexcept {
 
 void putBack(GroupState &state, const ContinueData &content) noexcept {
   group::resume(state.motion, content.path);
+  state.uncapped = path::endOf(state.motion.motion.course);
   state.tool = content.tool;
   for (int32_t k = 0; k < kAxes; ++k)
     state.end[k] = content.end[k];

@@ -155,6 +155,7 @@ void fillJog(const decl::SMC_GroupJog2 &block, Request &request) noexcept {
   request.order.velocityFactor = block.VelFactor;
   request.order.accelerationFactor = block.AccFactor;
   request.order.jerkFactor = block.JerkFactor;
+  request.torqueFactor = 1.0;
   fillPath(block, request);
 }
 

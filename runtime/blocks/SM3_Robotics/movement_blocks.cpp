@@ -59,6 +59,7 @@ void runLinear(::stride::Ctx &ctx, Block &block, const decl::SMC_POS_REF &positi
     robotics::fillCoordinates(position, request.position);
     robotics::fillModes(block, request);
     robotics::fillPath(block, request);
+    robotics::fillOrientation(block, request);
   });
 }
 

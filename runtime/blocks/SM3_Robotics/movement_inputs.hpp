@@ -22,6 +22,12 @@ template <class Block> void fillModes(const Block &block, Request &request) noex
   request.order.velocityFactor = block.VelFactor;
   request.order.accelerationFactor = block.AccFactor;
   request.order.jerkFactor = block.JerkFactor;
+  request.torqueFactor = block.TorqueFactor;
+}
+
+/// How the tool turns on its way.
+template <class Block> void fillOrientation(const Block &block, Request &request) noexcept {
+  request.orientationMode = block.OrientationMode;
 }
 
 /// What limits the tool along its path.

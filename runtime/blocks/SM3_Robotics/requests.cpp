@@ -9,6 +9,7 @@
 
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
+#include "st/SM3_Robotics/SMC_ORIENTATION_MODE.h"
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 
 namespace stride::robotics {
@@ -39,8 +40,10 @@ int16_t wrongInput(const Request &request) noexcept {
       request.bufferMode > buffer::MC_BUFFER_MODE__BlendingHigh)
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_BUFFER_MODE;
   if (!isFactor(order.velocityFactor) || !isFactor(order.accelerationFactor) ||
-      !isFactor(order.jerkFactor))
+      !isFactor(order.jerkFactor) || !isFactor(request.torqueFactor))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_FACTOR;
+  if (request.orientationMode != decl::SMC_ORIENTATION_MODE__GreatCircle)
+    return error::SMC_ERROR__SMC_CP_NO_AXIS_ORIENTATION;
   const group::PathLimits &path = order.path;
   if (leadsTool(request) &&
       (!exact::isPositive(path.velocity) || !exact::isPositive(path.acceleration) ||
@@ -175,7 +178,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
 /// What has been aborted cannot be continued.
 void forget(GroupState &state) noexcept {
   endTriggers(state);
-  group::clear(state.motion);
+  clearMotion(state);
   state.abortedEnd = state.abortedRequest;
 }
 
@@ -208,7 +211,7 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
   const bool owned = group.bOwns != 0;
   if (owned) {
     endTriggers(state);
-    group::clear(state.motion);
+    clearMotion(state);
   }
   beginMoving(group);
   changeTool(state, arm, request.tool);

@@ -95,7 +95,7 @@ void decl::SMC_GroupPrepareTrigger::body__(::stride::Ctx &ctx__) {
       error = ::st::SM_Error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
       if (placeOf(PositionType, Position, place))
         error = robotics::prepareTrigger(robotics::stateOf(*AxisGroup).triggers, ctx__.cycle + 1,
-                                         place, id);
+                                         place, udiMost, id);
       TriggerId = id;
     }
     robotics::setError(*this, error);

@@ -13,8 +13,6 @@ namespace error = ::st::SM_Error;
 using group::Outcome;
 
 constexpr int16_t kWrong = error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
-/// Triggers of one movement: the library parameter MAX_NUM_TRIGGERS_PER_MOVEMENT.
-constexpr int32_t kPerMovement = 8;
 
 Trigger &triggerAt(Triggers &triggers, uint64_t id) noexcept {
   return triggers.trigger[id % kTriggers];
@@ -148,12 +146,12 @@ void dropUnused(Triggers &triggers, uint64_t cycle) noexcept {
   triggers.prepared = 0;
 }
 
-int16_t prepareTrigger(Triggers &triggers, uint64_t cycle, const TriggerPlace &place,
+int16_t prepareTrigger(Triggers &triggers, uint64_t cycle, const TriggerPlace &place, uint32_t most,
                        uint64_t &id) noexcept {
   dropUnused(triggers, cycle);
   if (const int16_t wrong = wrongPlace(place); wrong != 0)
     return wrong;
-  if (triggers.prepared == kPerMovement ||
+  if (triggers.prepared >= most ||
       triggers.lastId - triggers.settledId >= static_cast<uint64_t>(kTriggers))
     return kWrong;
   id = ++triggers.lastId;

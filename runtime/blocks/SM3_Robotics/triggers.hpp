@@ -53,14 +53,15 @@ struct Triggers {
   uint64_t lastId;
   uint64_t settledId; ///< What becomes of triggers up to this one is known.
   uint64_t cycle;     ///< In which the last one was prepared, plus 1.
-  int32_t prepared;   ///< In that cycle, for the next movement.
+  uint32_t prepared;  ///< In that cycle, for the next movement.
 };
 
 /// The trigger of that id; null: there is none, or no longer.
 const Trigger *triggerOf(const Triggers &triggers, uint64_t id) noexcept;
 
-/// Prepares one: an SMC_ERROR. `cycle`: the present one, plus 1.
-int16_t prepareTrigger(Triggers &triggers, uint64_t cycle, const TriggerPlace &place,
+/// Prepares one: an SMC_ERROR. `cycle`: the present one, plus 1. `most`: how many a movement can
+/// have.
+int16_t prepareTrigger(Triggers &triggers, uint64_t cycle, const TriggerPlace &place, uint32_t most,
                        uint64_t &id) noexcept;
 
 /// What has been prepared before the present cycle has come to nothing.

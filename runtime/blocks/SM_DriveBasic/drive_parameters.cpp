@@ -10,9 +10,10 @@ namespace axis = ::stride::axis;
 namespace st::SM_DriveBasic {
 
 ::stride::UDINT SMC_AskDrive(::stride::Ctx & /*ctx__*/, AXIS_REF &Axis, ::stride::BYTE byKind,
-                             ::stride::DINT diNumber, ::stride::BOOL bBool,
-                             ::stride::LREAL fValue) {
-  return axis::askDrive(Axis, static_cast<axis::ChannelKind>(byKind), diNumber, bBool != 0, fValue);
+                             ::stride::DINT diNumber, ::stride::BYTE byForm, ::stride::LREAL fValue,
+                             ::stride::DWORD dwValue) {
+  return axis::askDrive(Axis, static_cast<axis::ChannelKind>(byKind), diNumber,
+                        static_cast<axis::ChannelForm>(byForm), fValue, dwValue);
 }
 
 ::stride::INT SMC_DriveAnswer(::stride::Ctx & /*ctx__*/, AXIS_REF &Axis, ::stride::UDINT udiClaim) {

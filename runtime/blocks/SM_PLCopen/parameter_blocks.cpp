@@ -52,7 +52,9 @@ template <class Block> void fail(Block &block, int16_t errorId) noexcept {
 /// Asks for the way to the drive. False: it has been occupied for too long.
 template <class Block>
 bool ask(Block &block, axis::ChannelKind kind, bool boolean, double value) noexcept {
-  block.udiClaim = axis::askDrive(*block.Axis, kind, -block.diNumber, boolean, value);
+  block.udiClaim =
+      axis::askDrive(*block.Axis, kind, -block.diNumber,
+                     boolean ? axis::ChannelForm::Bool : axis::ChannelForm::Number, value);
   if (block.udiClaim == 0)
     return block.uiCycles++ < kLongest;
   block.uiCycles = 0;

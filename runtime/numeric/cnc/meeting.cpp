@@ -8,14 +8,6 @@ namespace {
 using exact::smaller;
 using numeric::dot;
 
-bool movesInSpace(const PathObject &object, ObjectShape &shape) noexcept {
-  const bool isCandidate = object.moveType != MoveType::Positioning &&
-                           object.moveType != MoveType::Function &&
-                           object.moveType != MoveType::Jump && object.probe == 0;
-  return isCandidate && shapeOf(object, shape) == ShapeError::None &&
-         (shape.measure == Measure::Space || shape.measure == Measure::Plane);
-}
-
 bool isSameNormal(const PathObject &a, const PathObject &b) noexcept {
   return a.normal.x == b.normal.x && a.normal.y == b.normal.y && a.normal.z == b.normal.z;
 }
@@ -24,11 +16,24 @@ float smallerLimit(float a, float b) noexcept { return a > 0.0F && (b <= 0.0F ||
 
 } // namespace
 
+bool describeAtCorner(const PathObject &object, ObjectShape &shape) noexcept {
+  const bool isCandidate = object.moveType != MoveType::Positioning &&
+                           object.moveType != MoveType::Function &&
+                           object.moveType != MoveType::Jump && object.probe == 0;
+  return isCandidate && shapeOf(object, shape) == ShapeError::None &&
+         (shape.measure == Measure::Space || shape.measure == Measure::Plane);
+}
+
 bool meet(const PathObject &before, const PathObject &after, Meeting &meeting) noexcept {
   ObjectShape first{};
   ObjectShape second{};
-  if (!movesInSpace(before, first) || !movesInSpace(after, second) ||
-      first.measure != second.measure)
+  return describeAtCorner(before, first) && describeAtCorner(after, second) &&
+         meet(before, first, after, second, meeting);
+}
+
+bool meet(const PathObject &before, const ObjectShape &first, const PathObject &after,
+          const ObjectShape &second, Meeting &meeting) noexcept {
+  if (first.measure != second.measure)
     return false;
   meeting.before = first.shape;
   meeting.after = second.shape;

@@ -26,6 +26,12 @@ struct Meeting {
 /// motion, no motion in space, ends at a probe or has a shape that is wrong, or their lengths are
 /// of different kinds.
 bool meet(const PathObject &before, const PathObject &after, Meeting &meeting) noexcept;
+/// The same with what describeAtCorner() says of both.
+bool meet(const PathObject &before, const ObjectShape &first, const PathObject &after,
+          const ObjectShape &second, Meeting &meeting) noexcept;
+
+/// The shape of an object that may have a corner with others. False: it may not.
+bool describeAtCorner(const PathObject &object, ObjectShape &shape) noexcept;
 
 /// Place and derivatives over the arc length, at a way from the start. [u] in
 path::Derivatives derivativesAt(const path::Shape &shape, double way) noexcept;

@@ -34,6 +34,15 @@ bool hasProfile(const PathObject &object) noexcept {
   return false;
 }
 
+/// How far a planar object has left the plane of its start.
+Vector3 liftAt(const PathObject &object, double part) noexcept {
+  if (object.planar == 0)
+    return numeric::kZero;
+  const Vector3 normal = normalOf(object);
+  const Vector3 way = placeOf(object.end) - placeOf(object.start);
+  return normal * (dot(way, normal) * part);
+}
+
 /// The coordinates of the cut.
 void place(const PathObject &object, const ObjectShape &shape, const Cut &cut,
            double (&coordinate)[kAxes]) noexcept {
@@ -44,10 +53,7 @@ void place(const PathObject &object, const ObjectShape &shape, const Cut &cut,
   if (shape.measure != Measure::Space && shape.measure != Measure::Plane)
     return;
   Vector3 p = path::overParameter(shape.shape, cut.u).p;
-  if (object.planar != 0) {
-    const Vector3 way = placeOf(object.end) - placeOf(object.start);
-    p = p + object.normal * (dot(way, object.normal) * cut.part);
-  }
+  p = p + liftAt(object, cut.part);
   coordinate[kAxisX] = p.x;
   coordinate[kAxisY] = p.y;
   coordinate[kAxisZ] = p.z;
@@ -141,15 +147,13 @@ void keepSwitches(PathObject &object, double part, bool inFirst) noexcept {
 // ---- an object that is cut
 
 struct Split {
-  PathObject whole;
   Cut cut;
   double coordinate[kAxes]; ///< Of the cut.
   double slope[3];          ///< Of A, B, C there, where they go by slopes.
 };
 
 /// Moves the cut to where slopes lead.
-void bend(Split &split, double length) noexcept {
-  const PathObject &object = split.whole;
+void bend(const PathObject &object, double length, Split &split) noexcept {
   for (unsigned i = kAxisA; i <= kAxisC; ++i) {
     if (!hasSlopes(object, i))
       continue;
@@ -170,45 +174,40 @@ CutError beginSplit(const PathObject &object, const ObjectShape &shape, double w
     return CutError::Profile;
   if (!(way > 0.0 && way < shape.length))
     return CutError::Way;
-  split.whole = object;
-  completePlane(split.whole);
   const double part = way / shape.length;
   const bool isCurve = shape.measure == Measure::Space || shape.measure == Measure::Plane;
   split.cut = {way, part, isCurve ? path::parameterAt(shape.shape, way) : part};
-  place(split.whole, shape, split.cut, split.coordinate);
-  const bool isEnd =
-      isAt(split.whole.start, split.coordinate) || isAt(split.whole.end, split.coordinate);
-  if (isEnd)
+  place(object, shape, split.cut, split.coordinate);
+  if (isAt(object.start, split.coordinate) || isAt(object.end, split.coordinate))
     return CutError::Way;
-  bend(split, shape.length);
+  bend(object, shape.length, split);
   return CutError::None;
 }
 
-void takeFirst(const Split &split, const ObjectShape &shape, PathObject &first) noexcept {
-  first = split.whole;
+/// Leaves what is before the cut, but for marks and the velocity at the end.
+void takeFirst(const Split &split, const ObjectShape &shape, PathObject &part) noexcept {
+  completePlane(part);
   for (int32_t i = 0; i < kAxes; ++i)
-    first.end.coordinate[i] = split.coordinate[i];
+    part.end.coordinate[i] = split.coordinate[i];
   for (unsigned i = kAxisA; i <= kAxisC; ++i)
-    if (hasSlopes(split.whole, i))
-      first.endSlope[i - kAxisA] = split.slope[i - kAxisA];
-  describe(shape.shape, 0.0, split.cut.u, first);
-  first.length = split.cut.way;
-  first.velocityEnd = split.whole.velocity;
-  first.marks = split.whole.marks & static_cast<uint8_t>(~kEndMarks);
-  keepSwitches(first, split.cut.part, true);
+    if (hasSlopes(part, i))
+      part.endSlope[i - kAxisA] = split.slope[i - kAxisA];
+  describe(shape.shape, 0.0, split.cut.u, part);
+  part.length = split.cut.way;
+  keepSwitches(part, split.cut.part, true);
 }
 
-void takeSecond(const Split &split, const ObjectShape &shape, PathObject &second) noexcept {
-  second = split.whole;
+/// Leaves what is after the cut, but for marks.
+void takeSecond(const Split &split, const ObjectShape &shape, PathObject &part) noexcept {
+  completePlane(part);
   for (int32_t i = 0; i < kAxes; ++i)
-    second.start.coordinate[i] = split.coordinate[i];
+    part.start.coordinate[i] = split.coordinate[i];
   for (unsigned i = kAxisA; i <= kAxisC; ++i)
-    if (hasSlopes(split.whole, i))
-      second.startSlope[i - kAxisA] = split.slope[i - kAxisA];
-  describe(shape.shape, split.cut.u, 1.0, second);
-  second.length = shape.length - split.cut.way;
-  second.marks = split.whole.marks & kEndMarks;
-  keepSwitches(second, split.cut.part, false);
+    if (hasSlopes(part, i))
+      part.startSlope[i - kAxisA] = split.slope[i - kAxisA];
+  describe(shape.shape, split.cut.u, 1.0, part);
+  part.length = shape.length - split.cut.way;
+  keepSwitches(part, split.cut.part, false);
 }
 
 } // namespace
@@ -222,19 +221,23 @@ CutError splitObject(const PathObject &object, double way, PathObject &first,
   const CutError error = beginSplit(object, shape, way, split);
   if (error != CutError::None)
     return error;
+  const PathObject whole = object; // which may be one of both
+  first = whole;
+  second = whole;
   takeFirst(split, shape, first);
   takeSecond(split, shape, second);
+  first.velocityEnd = whole.velocity;
+  first.marks = whole.marks & static_cast<uint8_t>(~kEndMarks);
+  second.marks = whole.marks & kEndMarks;
   return CutError::None;
 }
 
 CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noexcept {
   Split split;
   const CutError error = beginSplit(object, shape, way, split);
-  if (error != CutError::None)
-    return error;
-  takeSecond(split, shape, object);
-  object.marks = split.whole.marks;
-  return CutError::None;
+  if (error == CutError::None)
+    takeSecond(split, shape, object);
+  return error;
 }
 
 CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexcept {
@@ -242,11 +245,21 @@ CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexce
     return CutError::Way;
   Split split;
   const CutError error = beginSplit(object, shape, shape.length - way, split);
+  if (error == CutError::None)
+    takeFirst(split, shape, object);
+  return error;
+}
+
+CutError cutStart(PathObject &object, ObjectShape &shape, double way, bool &known) noexcept {
+  Split split;
+  const CutError error = beginSplit(object, shape, way, split);
   if (error != CutError::None)
     return error;
-  takeFirst(split, shape, object);
-  object.velocityEnd = split.whole.velocityEnd;
-  object.marks = split.whole.marks;
+  const Vector3 lift = liftAt(object, split.cut.part);
+  takeSecond(split, shape, object);
+  known = path::cutStart(shape.shape, split.cut.u);
+  shape.shape.v[0] = shape.shape.v[0] + lift;
+  shape.length = shape.shape.length;
   return CutError::None;
 }
 

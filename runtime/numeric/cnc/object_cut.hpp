@@ -32,6 +32,8 @@ CutError cutEnd(PathObject &object, double way) noexcept;
 /// The same where it is known what shapeOf() says of the object.
 CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noexcept;
 CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexcept;
+/// Then shapeOf() of what is left is in `shape`, where that is quick to say (`known`).
+CutError cutStart(PathObject &object, ObjectShape &shape, double way, bool &known) noexcept;
 
 } // namespace stride::cnc
 

@@ -400,6 +400,10 @@ void completePlane(PathObject &object) noexcept {
   object.normal = {0.0, 0.0, 1.0};
 }
 
+Vector3 normalOf(const PathObject &object) noexcept {
+  return saysNoPlane(object) ? Vector3{0.0, 0.0, 1.0} : object.normal;
+}
+
 Vector3 placeOf(const Position &position) noexcept {
   return {position.coordinate[kAxisX], position.coordinate[kAxisY], position.coordinate[kAxisZ]};
 }

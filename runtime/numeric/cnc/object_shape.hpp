@@ -57,6 +57,9 @@ Vector3 placeOf(const Position &position) noexcept;
 /// Writes the plane of X and Y into an object whose plane says nothing but zeros.
 void completePlane(PathObject &object) noexcept;
 
+/// The normal of its plane.
+Vector3 normalOf(const PathObject &object) noexcept;
+
 /// Sets X, Y, Z of the end as the parameters say. What the parameters do not say stays: the end of
 /// lines, and of flat curves the way out of their plane.
 ShapeError calculateEnd(PathObject &object) noexcept;

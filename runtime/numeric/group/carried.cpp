@@ -26,8 +26,10 @@ Frame<Series> systemWith(const GroupMotion &group, const Series &carrier,
   return system;
 }
 
-/// Where the carrier will be, as far as that can be known.
+/// Where the carrier will be, as far as that can be known: of a tool no more than where it is now.
 double carrierAfter(const Ride &ride, double time) noexcept {
+  if (ride.follows && ride.system.kind == CarrierKind::Tool)
+    return ride.carrier.position;
   return ride.follows ? ride.follower.position + ride.carrier.velocity * time
                       : ride.follower.position;
 }
@@ -114,6 +116,9 @@ void lower(motion::Dynamics &most, const Arm &arm, const Series (&axes)[kAxes],
   }
 }
 
+/// Of the velocity of the path, what a tool that is followed is taken to have at least.
+constexpr double kSlowest = 0.05;
+
 /// How fast the tool's point is where the carrier goes by 1. [u]
 double speedOf(const PathPlace &place) noexcept {
   return numeric::norm(
@@ -175,7 +180,7 @@ void CarriedTrack::yieldTo(const Ride &ride, const Arm &arm, double way,
     const Series &f = forwards[k];
     const Series &b = backwards[k];
     const Series &u = carried[k];
-    if (ride.system.kind == CarrierKind::Table) {
+    if (ride.system.kind != CarrierKind::Belt) {
       limits[k].velocity *= kTurningShare;
       limits[k].acceleration *= kTurningShare;
       limits[k].jerk *= kTurningShare;
@@ -216,7 +221,9 @@ motion::Dynamics boardingDynamics(const GroupMotion &group, const Arm &arm,
   place.tool = systemAt(system, growing(carrier.position, 1.0)) * onCarrier;
   for (int32_t k = kArmAxes; k < kAxes; ++k)
     place.axes[k] = Series(group.axes[k]);
-  const double speed = speedOf(place);
+  // A tool that hardly moves has been reached at once.
+  const double slowest = system.kind == CarrierKind::Tool ? kSlowest * path.velocity : 0.0;
+  const double speed = larger(speedOf(place), slowest);
   const double perPath = speed > 0.0 ? 1.0 / speed : exact::kInfinity;
   const double acceleration = smaller(path.acceleration, path.deceleration) * perPath;
   motion::Dynamics most{motion::RampType::Parabolic, path.velocity * perPath, acceleration,

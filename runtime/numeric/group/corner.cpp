@@ -39,6 +39,14 @@ Vector3 valueOf(const Vector<Series> &place) noexcept {
 
 Spin spinOf(const Leg &leg) noexcept { return {leg.about, leg.angle / leg.length}; }
 
+/// How long the derivatives over u are at the ends of a corner between two lines, over its chord,
+/// so that the tool is as fast in its middle: in between its velocity changes by 2 per thousand up
+/// to a right angle. Where the path nearly turns round that is too little for its curvature.
+double evenStretch(double turn) noexcept {
+  const double even = 1.875 / (1.0 + 0.875 * ::stride::cos(0.5 * turn));
+  return exact::larger(even, path::blendStretch(turn));
+}
+
 /// How much of the ways of both legs a unit of u is at the ends of the corner.
 void setSpeeds(Corner &corner, double before, double after) noexcept {
   corner.first = 1.0 / before;
@@ -58,11 +66,11 @@ Corner toolCorner(const Leg &before, double cutBefore, const Leg &after, double 
   double speedBefore = 2.0 * cutBefore;
   double speedAfter = 2.0 * cutAfter;
   const bool bothGo = before.kind != LegKind::Turn && after.kind != LegKind::Turn;
-  if (bothGo) { // with the least curvature
+  if (bothGo) {
     const double turn =
         path::turnBetween(directionOf(begin.tool.place), directionOf(end.tool.place));
     const double chord = numeric::norm(valueOf(end.tool.place) - valueOf(begin.tool.place));
-    speedBefore = speedAfter = path::blendStretch(turn) * chord;
+    speedBefore = speedAfter = evenStretch(turn) * chord;
   }
   setSpeeds(corner, speedBefore, speedAfter);
   for (int i = 0; i < 3; ++i)

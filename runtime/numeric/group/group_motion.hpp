@@ -78,12 +78,20 @@ struct Movement {
   bool gated;     ///< It waits, and the motion stays where it begins until it is told to go on.
 };
 
+/// The most that an axis may do whatever movements say; kInfinity: no limit. Trivially copyable.
+struct AxisCap {
+  double velocity = exact::kInfinity;     ///< [u/s]
+  double acceleration = exact::kInfinity; ///< Also to brake. [u/s^2]
+  double jerk = exact::kInfinity;         ///< [u/s^3]
+};
+
 /// What is allowed of the limits besides what movements say. It counts for the parts of the path
-/// that are made known from now on; velocities are GroupCommand::override.
+/// that are made known from now on; velocities of the rest are GroupCommand::override.
 struct Allowance {
   double axisAcceleration, axisJerk;       ///< Factors, above 0 up to 1.
   double pathAcceleration, pathJerk;       ///< Likewise, of the tool's path.
   double acceleration, deceleration, jerk; ///< Most along the tool's path, before its factors.
+  AxisCap axis[kAxes]{};                   ///< Before their factors.
 };
 inline constexpr Allowance kAllAllowed{
     1.0, 1.0, 1.0, 1.0, exact::kInfinity, exact::kInfinity, exact::kInfinity};

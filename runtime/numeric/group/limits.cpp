@@ -13,8 +13,10 @@ using exact::smaller;
 /// Of what the axes' accelerations allow, the part that a bend may take: the rest is for changes of
 /// the velocity.
 constexpr double kBendShare = 0.9;
-/// Of what an axis's jerk allows, the part that changes of the path's acceleration may take where
-/// the path is bent for that axis.
+/// Of what an axis's jerk allows, the part that a bend may take at a constant velocity. Of what is
+/// left of it at the velocity of the strip, the part for changes of the acceleration along the
+/// path; the rest is for accelerations in the bend.
+constexpr double kBendJerkShare = 0.6;
 constexpr double kChangeShare = 0.5;
 /// How far derivatives in the middle of a part may be from a straight line between its ends.
 constexpr double kEvenness = 0.2;
@@ -166,7 +168,6 @@ void straighten(const Arm &arm, double length, Peaks &peaks) noexcept {
 }
 
 void limitByAxes(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
-  double jerk = strip.jerk;
   for (int32_t k = 0; k < axisCount(arm); ++k) {
     const double first = peaks.d[1][k];
     const AxisLimits &limits = arm.limits[k];
@@ -175,47 +176,42 @@ void limitByAxes(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcep
     strip.feed = smaller(strip.feed, limits.velocity / first);
     strip.along = larger(strip.along, first / limits.acceleration);
     strip.across = larger(strip.across, peaks.d[2][k] / limits.acceleration);
-    jerk = smaller(jerk, (peaks.bent[k] ? kChangeShare : 1.0) * limits.jerk / first);
+    if (peaks.bent[k])
+      limitVelocity(strip, numeric::cubeRoot(kBendJerkShare * limits.jerk / peaks.d[3][k]));
   }
   if (strip.across > 0.0)
     strip.ceiling = smaller(strip.ceiling, kBendShare / strip.across);
+}
+
+/// What the velocity of the strip leaves of an axis's jerk.
+double jerkLeft(const Arm &arm, const Peaks &peaks, int32_t k, double velocity) noexcept {
+  return arm.limits[k].jerk - velocity * velocity * velocity * peaks.d[3][k];
+}
+
+/// After the velocity: the jerk along the path.
+void limitJerk(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
+  const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
+  double jerk = strip.jerk;
+  for (int32_t k = 0; k < axisCount(arm); ++k)
+    if (hasAxis(arm, k) && peaks.d[1][k] > 0.0)
+      jerk = smaller(jerk, (peaks.bent[k] ? kChangeShare * jerkLeft(arm, peaks, k, velocity)
+                                          : arm.limits[k].jerk) /
+                               peaks.d[1][k]);
   strip.jerk = static_cast<float>(jerk);
 }
 
-/// What is left of an axis's jerk in a bend is for three times the second derivative times velocity
-/// times acceleration, and for the third one times velocity to the power of three: half of it each.
-/// The greatest product of velocity and acceleration, and the greatest velocity.
-struct Bend {
-  double product, velocity;
-};
-Bend bendOf(const Arm &arm, const Peaks &peaks, double change) noexcept {
-  Bend bend{kInfinity, kInfinity};
-  for (int32_t k = 0; k < axisCount(arm); ++k) {
-    if (!hasAxis(arm, k) || !peaks.bent[k] || !(arm.limits[k].jerk < kInfinity))
-      continue;
-    const double left = 0.5 * (arm.limits[k].jerk - peaks.d[1][k] * change);
-    bend.product = smaller(bend.product, left / (3.0 * peaks.d[2][k]));
-    bend.velocity = smaller(bend.velocity, numeric::cubeRoot(left / peaks.d[3][k]));
-  }
-  return bend;
-}
-
-/// After all else: how fast bends may be gone through for the axes' jerks. At a velocity v the
-/// acceleration is at most sqrt(2 jerk v), or it could not end before the motion stands still:
-/// where that is less than what else is allowed, it becomes the limit.
-void limitByBends(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
-  const double jerk = static_cast<double>(strip.jerk);
-  const Bend bend = bendOf(arm, peaks, jerk);
-  limitVelocity(strip, bend.velocity);
-  if (!(bend.product < kInfinity))
-    return;
-  const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
-  const double velocity =
-      larger(bend.product / most, numeric::cubeRoot(bend.product * bend.product / (2.0 * jerk)));
-  limitVelocity(strip, velocity);
-  const double present = exact::sqrt(path::squareIn(strip, 1.0));
-  strip.acceleration = smaller(strip.acceleration, bend.product / present);
-  strip.deceleration = smaller(strip.deceleration, bend.product / present);
+/// After all else: three times the second derivative times velocity times acceleration must not
+/// take more of an axis's jerk than what is left of it.
+void limitInBends(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
+  const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
+  const auto change = static_cast<double>(strip.jerk);
+  double most = kInfinity;
+  for (int32_t k = 0; k < axisCount(arm); ++k)
+    if (hasAxis(arm, k) && peaks.bent[k] && peaks.d[2][k] > 0.0)
+      most = smaller(most, (jerkLeft(arm, peaks, k, velocity) - peaks.d[1][k] * change) /
+                               (3.0 * peaks.d[2][k] * velocity));
+  strip.acceleration = smaller(strip.acceleration, most);
+  strip.deceleration = smaller(strip.deceleration, most);
 }
 
 void limitByPath(const Peaks &peaks, const PathLimits &path, path::Strip &strip) noexcept {
@@ -247,8 +243,9 @@ void makeStrip(const Arm &arm, Peaks &peaks, const PathLimits &path, double leng
   straighten(arm, length, peaks);
   limitByPath(peaks, path, strip);
   limitByAxes(arm, peaks, strip);
+  limitJerk(arm, peaks, strip);
   limitRise(strip);
-  limitByBends(arm, peaks, strip);
+  limitInBends(arm, peaks, strip);
   strip.endFeed = strip.feed;
 }
 

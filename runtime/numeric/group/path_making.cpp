@@ -50,9 +50,12 @@ struct OrderedArm {
   }
   OrderedArm(const Arm &all, const Order &order, const Allowance &allowance) noexcept
       : OrderedArm(all, order) {
-    for (AxisLimits &axis : limits) {
-      axis.acceleration *= allowance.axisAcceleration;
-      axis.jerk *= allowance.axisJerk;
+    for (int32_t k = 0; k < kAxes; ++k) {
+      AxisLimits &axis = limits[k];
+      const AxisCap &cap = allowance.axis[k];
+      axis.velocity = smaller(axis.velocity, cap.velocity);
+      axis.acceleration = allowance.axisAcceleration * smaller(axis.acceleration, cap.acceleration);
+      axis.jerk = allowance.axisJerk * smaller(axis.jerk, cap.jerk);
     }
   }
 };

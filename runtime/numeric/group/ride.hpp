@@ -1,4 +1,5 @@
-// A coordinate system that something else moves, a belt or a table, and how a group follows it: at
+// A coordinate system that something else moves, a belt, a table or another group's tool, and how a
+// group follows it: at
 // first the group's own copy of the system is at rest; it pursues the system within limits until it
 // is where the system is, and goes with it from then on; when it is left, it comes to rest. The
 // group's path is in the copy, so that the group never jumps.
@@ -13,16 +14,30 @@ namespace stride::group {
 
 /// What moves a system.
 enum class CarrierKind : uint8_t {
-  Belt, ///< Runs along the X axis of its origin. [u]
-  Table ///< Turns about the Z axis of its origin. [°]
+  Belt,  ///< Runs along the X axis of its origin. [u]
+  Table, ///< Turns about the Z axis of its origin. [°]
+  Tool   ///< Goes as it does now: what counts is the time. [s]
+};
+
+/// How a tool goes now, about the machine's axes. Trivially copyable.
+struct ToolMotion {
+  double time;          ///< When that is. [s]
+  Vector3 velocity;     ///< Of its origin. [u/s]
+  Vector3 acceleration; ///< [u/s^2]
+  Vector3 spin;         ///< How fast it turns. [rad/s]
+  Vector3 spinChange;   ///< [rad/s^2]
 };
 
 /// A system on a carrier. Trivially copyable.
 struct MovingSystem {
-  Pose origin; ///< Of the carrier, in the machine.
+  Pose origin; ///< Of the carrier, in the machine; of a tool: where it is now.
   Pose object; ///< Of the system on the carrier, where that is at 0.
   CarrierKind kind;
+  ToolMotion tool; ///< Tool.
 };
+
+/// The motion of a tool that is given as a series in time; its origin is `origin`.
+ToolMotion motionOf(const Frame<Series> &tool, double time, Pose &origin) noexcept;
 
 /// Where the system is in the machine when its carrier is at a place [u] or [°], as a series of
 /// what `carrier` is one of.

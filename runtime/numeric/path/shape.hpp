@@ -61,6 +61,9 @@ Shape polynomialShape(const Vector3 (&coefficients)[6]) noexcept;
 /// The polynomial of degree 5 between two places, with the derivatives over u that both ends say.
 Shape quinticShape(const Derivatives &begin, const Derivatives &end) noexcept;
 
+/// Leaves a line or an arc from u on, and its length. FALSE for other shapes, which stay.
+bool cutStart(Shape &shape, double u) noexcept;
+
 /// Place and derivatives over u, 0 <= u <= 1.
 Derivatives overParameter(const Shape &shape, double u) noexcept;
 

@@ -70,7 +70,7 @@ struct Channel : testing::Test {
     }
   }
   uint32_t ask(int32_t number) {
-    return axis::askDrive(ref, ChannelKind::Read, number, false, 0.0);
+    return axis::askDrive(ref, ChannelKind::Read, number, axis::ChannelForm::Number, 0.0);
   }
   ChannelResult result() const { return static_cast<ChannelResult>(ref.stChannel.byResult); }
 
@@ -204,7 +204,8 @@ TEST_F(Channel, AResetOfTheGroupAnswersWithAnError) {
 
 TEST_F(Channel, TextsThatAreTooLongAreCut) {
   driver->answers = true;
-  const uint32_t claim = axis::askDrive(ref, ChannelKind::Describe, 0, false, 0.0);
+  const uint32_t claim =
+      axis::askDrive(ref, ChannelKind::Describe, 0, axis::ChannelForm::Number, 0.0);
   cycle();
   ASSERT_EQ(axis::pollDrive(ref, claim), Asked::Answered);
   EXPECT_STREQ(ref.stChannel.sName.s, "a name that is much longer than the fort");

@@ -172,6 +172,103 @@ TEST(CncTransform, RandomPathsAreScaledMirroredAndShifted) {
   }
 }
 
+/// Rows and columns of holes, slots and pockets by loops in each other, with what is driven in
+/// them: coordinates from where the loop is, or the same places again and again.
+class RandomLoops {
+public:
+  explicit RandomLoops(unsigned seed) : random_(seed) {}
+
+  std::string text() {
+    const int rounds = 1 + pick(4);
+    std::string text = "N1 G0 X7 Y8 Z2 F100\n";
+    text += fmt::format("G36 D{}\nN10 G91\n", rounds);
+    for (int i = 2 + pick(5); i > 0; --i)
+      text += fmt::format("{} (part {})\n", relative(), i);
+    if (pick(2) == 0)
+      text += fmt::format("G90\nG0 X{} Y{} Z3\n{}", number(), number(), straight());
+    text += "G37 D-1\nG20 L10\n" + straight();
+    // A part that is left out, and the same sentence from two places.
+    text += "G20 L30 K1\nG1 X$never$ Y5 Z$never$\nN30 G90\n" + straight();
+    return text;
+  }
+
+private:
+  int pick(int count) { return std::uniform_int_distribution(0, count - 1)(random_); }
+  std::string number() { return fmt::format("{:.3f}", 0.001 * (pick(40000) - 20000) + 0.0005); }
+
+  std::string straight() {
+    return "G90\nG1 X" + number() + " Y" + number() + " Z" + number() + "\n";
+  }
+
+  std::string relative() {
+    switch (pick(6)) {
+    case 0:
+      return "G1 X" + number() + " Y" + number();
+    case 1:
+      return fmt::format("G{} X4 Y4 R{}", 2 + pick(2), 3 + pick(9));
+    case 2:
+      return fmt::format("G3 T{} I{} J{}", 20 + pick(300), 1 + pick(5), pick(5));
+    case 3:
+      return "G1 Z" + number() + " H1 O0.25";
+    case 4:
+      return fmt::format("G2 I{} J-3", 1 + pick(4));
+    default:
+      return "G0 Y" + number();
+    }
+  }
+
+  std::mt19937 random_;
+};
+
+TEST(CncTransform, RandomLoopsAreMoved) {
+  const double about[stride::cnc::kAxes] = {4, -7, 2};
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const std::string text = RandomLoops(seed).text();
+    const double degrees = 1.5 * seed - 90;
+    const double c = std::cos(degrees * M_PI / 180);
+    const double s = std::sin(degrees * M_PI / 180);
+    const auto turned = [=](Xyz p) {
+      return Xyz{4 + c * (p[0] - 4) - s * (p[1] + 7), -7 + s * (p[0] - 4) + c * (p[1] + 7), p[2]};
+    };
+    expectMoved(text, changed(text, cncRotation(degrees, about)), turned, 1);
+    const auto scaled = [](Xyz p) {
+      return Xyz{4 + 2.5 * (p[0] - 4), -7 + 2.5 * (p[1] + 7), 2 + 2.5 * (p[2] - 2)};
+    };
+    expectMoved(text, changed(text, cncScale(2.5, about)), scaled, 2.5);
+    const auto mirrored = [](Xyz p) { return Xyz{6 - p[0], p[1], p[2]}; };
+    expectMoved(text, changed(text, cncReflection(0, 3)), mirrored, 1);
+    const auto shifted = [](Xyz p) { return Xyz{p[0] + 4, p[1] - 7, p[2] + 2}; };
+    expectMoved(text, changed(text, cncShift(about)), shifted, 1);
+    if (HasFatalFailure())
+      return;
+  }
+}
+
+TEST(CncTransform, ASentenceThatIsReachedInSeveralWaysHasOneText) {
+  const double by[stride::cnc::kAxes] = {5};
+  const double zero[stride::cnc::kAxes] = {};
+  const auto turned = [&](const std::string &text) { return changed(text, cncRotation(90, zero)); };
+  EXPECT_EQ(turned("G36 D2\nG0 X1 Y2 F1\nN5 G91\nG1 X3\nG37 D-1\nG20 L5\n"),
+            "G36 D2\nG0 X-2 Y1 F1\nN5 G91\nG1 X0 Y3\nG37 D-1\nG20 L5\n");
+  // Y of where the sentence begins is in its new X: 2 the first time, then 9.
+  EXPECT_EQ(turned("G36 D2\nG0 X1 Y2 F1\nN5 G1 X3\nY9\nG37 D-1\nG20 L5\n"),
+            "SE0892: jumps lead here in several ways, and each needs another text");
+  // The first line of a path begins elsewhere, and needs Z only then.
+  const double up[stride::cnc::kAxes] = {0, 0, 5};
+  EXPECT_EQ(changed("G36 D2\nG91\nN5 G1 X3 F1\nG37 D-1\nG20 L5\n", cncShift(up)),
+            "SE0892: jumps lead here in several ways, and each needs another text");
+  EXPECT_EQ(changed("G36 D2\nN5 G1 X3 F1\nG37 D-1\nG20 L5\n", cncShift(up)),
+            "G36 D2\nN5 G1 X3 Z5 F1\nG37 D-1\nG20 L5\n");
+  // An arc that stays from before, in one plane and in another.
+  EXPECT_EQ(changed("G36 D2\nG17\nG2 I1 F1\nN5 J1\nG37 D-1\nG18\nG20 L5\n", cncReflection(1, 0)),
+            "SE0892: jumps lead here in several ways, and each needs another text");
+  // For ever.
+  EXPECT_EQ(changed("N5 G1 X3 F1\nX7\nG20 L5 K1\n", cncShift(by)), "N5 G1 X8 F1\nX12\nG20 L5 K1\n");
+  // What is never carried out stays.
+  EXPECT_EQ(changed("G1 X3 F1\nG20 L5 K1\nX$a$\nN5 X4\n", cncShift(by)),
+            "G1 X8 F1\nG20 L5 K1\nX$a$\nN5 X9\n");
+}
+
 TEST(CncTransform, WhatIsNoWordOfTheChangeStays) {
   const double by[stride::cnc::kAxes] = {5};
   EXPECT_EQ(changed("%  a\r\n\r\n n010 g01  x1.50(c)Y$a.b$ F100//d\r\n M3 K5 X7\r\n", cncShift(by)),
@@ -198,7 +295,11 @@ TEST(CncTransform, WhatCannotBeMovedIsSaid) {
   const auto turned = [&](const std::string &text) { return changed(text, cncRotation(30, zero)); };
   EXPECT_EQ(turned("G1 X$a$ F1\n"),
             "SE0892: a variable says this value, which would have to change");
-  EXPECT_EQ(turned("N1 G1 X1 F1\nG20 L1 K0\n"), "SE0892: a program with jumps cannot be moved");
+  EXPECT_EQ(turned("N1 G1 X1 F1\nG20 L1 K$k$\n"), "SE0892: a variable decides about this jump");
+  EXPECT_EQ(turned("G36 D$d$\nN1 G1 X1 F1\nG37 D-1\nG20 L1\n"),
+            "SE0892: a variable decides about this jump");
+  EXPECT_EQ(turned("G36 D2\nN1 G1 X1 F1\nG37 D-1\n/G20 L1\n"),
+            "SE0892: this jump may be suppressed, and others depend on it");
   EXPECT_EQ(turned("G54 X1\n"), "SE0892: the program moves its coordinates itself");
   EXPECT_EQ(turned("G16 I1\n"), "SE0892: a plane that is given by its normal cannot be turned");
   EXPECT_EQ(turned("G18\nG2 I5 F1\n"), "SE0892: an arc in this plane cannot be turned about Z");

@@ -72,8 +72,8 @@ void expectInTriangle(const LineCorner &c) {
 }
 
 CornerChange make(LineCorner &c, PieceKind kind, double distance, bool symmetrical = false) {
-  double room = -1;
-  return makeCorner(c.before, c.after, {kind, distance, symmetrical, 0}, room, c.piece);
+  BeforeCorner known{-1, false, {}};
+  return makeCorner(c.before, c.after, {kind, distance, symmetrical, 0}, known, c.piece);
 }
 
 TEST(CornerPiece, CubicKeepsTheTangentAndComesAsNearAsSaid) {
@@ -182,12 +182,12 @@ TEST(CornerPiece, CurvesAreCutByACircleAroundTheCorner) {
       const Point corner = endOf(before);
       PathObject after = arc(corner + Point{-7, 0, 0}, 7, 0, -95);
       PathObject piece{};
-      double room = -1;
-      ASSERT_EQ(makeCorner(before, after, {kind, distance, false, 0}, room, piece),
+      BeforeCorner known{-1, false, {}};
+      ASSERT_EQ(makeCorner(before, after, {kind, distance, false, 0}, known, piece),
                 CornerChange::Cut);
       EXPECT_NEAR(sizeOf(endOf(before) - corner), distance, 1e-10);
       EXPECT_NEAR(sizeOf(startOf(after) - corner), distance, 1e-10);
-      EXPECT_NEAR(room, 7 * 95 * kDegree / 2, 1e-9);
+      EXPECT_NEAR(known.room, 7 * 95 * kDegree / 2, 1e-9);
       expectJoined(before, after, piece, kind == PieceKind::Quintic);
       for (int i = 0; i <= 100; ++i)
         EXPECT_LT(sizeOf(placeAt(piece, i / 100.0) - corner), distance * (1 + 1e-9));
@@ -200,18 +200,18 @@ TEST(CornerPiece, ArcsOnlyBetweenLines) {
   after.start.coordinate[0] = 5;
   after = arc({8, 0, 0}, 3, 180, -60);
   PathObject piece{};
-  double room = -1;
-  EXPECT_EQ(makeCorner(before, after, {PieceKind::Arc, 1, false, 0}, room, piece),
+  BeforeCorner known{-1, false, {}};
+  EXPECT_EQ(makeCorner(before, after, {PieceKind::Arc, 1, false, 0}, known, piece),
             CornerChange::Kept);
   EXPECT_EQ(endOf(before)[0], 5);
-  EXPECT_EQ(room, -1);
+  EXPECT_EQ(known.room, -1);
 }
 
 TEST(CornerPiece, WhatCannotBeCutStays) {
   const auto kept = [](PathObject before, PathObject after, const PieceRules &rules) {
     PathObject piece{};
-    double room = -1;
-    return makeCorner(before, after, rules, room, piece) == CornerChange::Kept;
+    BeforeCorner known{-1, false, {}};
+    return makeCorner(before, after, rules, known, piece) == CornerChange::Kept;
   };
   const PathObject a = line({0, 0, 0}, {5, 0, 0});
   const PathObject b = line({5, 0, 0}, {5, 8, 0});
@@ -250,8 +250,8 @@ TEST(CornerPiece, SlopesGoOnThroughThePiece) {
   before.endSlope[1] = 2;
   // 10 * u^2 * (3 - 2 u) + 5 * 2 * u^2 * (u - 1), u = 0.6 where 2 of 5 are cut off
   PathObject piece{};
-  double room = -1;
-  ASSERT_EQ(makeCorner(before, after, {PieceKind::Quintic, 2, false, 0}, room, piece),
+  BeforeCorner known{-1, false, {}};
+  ASSERT_EQ(makeCorner(before, after, {PieceKind::Quintic, 2, false, 0}, known, piece),
             CornerChange::Cut);
   EXPECT_NEAR(before.end.coordinate[kAxisB], 10 * 0.36 * 1.8 - 10 * 0.36 * 0.4, 1e-12);
   EXPECT_EQ(piece.start.coordinate[kAxisB], before.end.coordinate[kAxisB]);
@@ -277,8 +277,8 @@ TEST(CornerPiece, OtherAxesGoAlong) {
   after.limits[0].velocity = 3;
   before.sentence = 40;
   PathObject piece{};
-  double room = -1;
-  ASSERT_EQ(makeCorner(before, after, {PieceKind::Cubic, 2, false, 0}, room, piece),
+  BeforeCorner known{-1, false, {}};
+  ASSERT_EQ(makeCorner(before, after, {PieceKind::Cubic, 2, false, 0}, known, piece),
             CornerChange::Cut);
   EXPECT_DOUBLE_EQ(before.end.coordinate[kAxisP], 6);
   EXPECT_DOUBLE_EQ(piece.start.coordinate[kAxisP], 6);
@@ -302,8 +302,8 @@ TEST(CornerPiece, WhatLeavesThePlaneGoesAlongEvenly) {
     before.length = 5;
     after.length = 8;
     PathObject piece{};
-    double room = -1;
-    ASSERT_EQ(makeCorner(before, after, {kind, 2, false, 0}, room, piece), CornerChange::Cut);
+    BeforeCorner known{-1, false, {}};
+    ASSERT_EQ(makeCorner(before, after, {kind, 2, false, 0}, known, piece), CornerChange::Cut);
     EXPECT_NEAR(endOf(before)[0], 3, 1e-12);
     EXPECT_NEAR(endOf(before)[2], 4, 1e-12);
     EXPECT_NEAR(startOf(after)[1], 2, 1e-12);
@@ -323,12 +323,12 @@ TEST(CornerPiece, NothingIsLeftOfAnObjectWhoseHalvesAreCut) {
   b.marks = kEndToolCorrection;
   PathObject first{};
   PathObject second{};
-  double room = -1;
+  BeforeCorner known{-1, false, {}};
   const PieceRules rules{PieceKind::Arc, 5, false, 0};
-  ASSERT_EQ(makeCorner(a, b, rules, room, first), CornerChange::Cut);
-  EXPECT_EQ(room, 1.5);
+  ASSERT_EQ(makeCorner(a, b, rules, known, first), CornerChange::Cut);
+  EXPECT_EQ(known.room, 1.5);
   EXPECT_EQ(startOf(b)[1], 1.5);
-  ASSERT_EQ(makeCorner(b, c, rules, room, second), CornerChange::Replaced);
+  ASSERT_EQ(makeCorner(b, c, rules, known, second), CornerChange::Replaced);
   EXPECT_EQ(startOf(second), (Point{4, 1.5, 0}));
   EXPECT_EQ(endOf(second), startOf(c));
   EXPECT_NEAR(second.shape[2], 1.5, 1e-12);
@@ -351,8 +351,8 @@ TEST(CornerPiece, SwitchPointsStayOrGoOntoThePiece) {
   after.switchId[1] = -2;
   after.switchPosition[1] = 0.6;
   PathObject piece{};
-  double room = -1;
-  ASSERT_EQ(makeCorner(before, after, {PieceKind::Arc, 2, false, 0}, room, piece),
+  BeforeCorner known{-1, false, {}};
+  ASSERT_EQ(makeCorner(before, after, {PieceKind::Arc, 2, false, 0}, known, piece),
             CornerChange::Cut);
   EXPECT_EQ(before.switchId[0], 1);
   EXPECT_NEAR(before.switchPosition[0] * 8, 5, 1e-12);
@@ -377,8 +377,8 @@ TEST(CornerPiece, NoSwitchPointIsLost) {
     after.switchPosition[i] = 0.01;
   }
   PathObject piece{};
-  double room = -1;
-  ASSERT_EQ(makeCorner(before, after, {PieceKind::Cubic, 2, false, 0}, room, piece),
+  BeforeCorner known{-1, false, {}};
+  ASSERT_EQ(makeCorner(before, after, {PieceKind::Cubic, 2, false, 0}, known, piece),
             CornerChange::Cut);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(before.switchId[i], 0);

@@ -39,13 +39,13 @@ void changeCorner(CornerPath &path) noexcept {
   if (!path.holds || !path.heldActive || !path.active)
     return;
   const PieceRules rules{path.kind, distanceOf(path), path.symmetrical, path.leastTurn};
-  double room = path.heldRoom;
-  const CornerChange change = makeCorner(path.held, path.following, rules, room, path.piece);
+  path.knownNext = path.knownHeld;
+  const CornerChange change =
+      makeCorner(path.held, path.following, rules, path.knownNext, path.piece);
   if (change == CornerChange::Kept)
     return;
   path.hasPiece = true;
   path.holds = change == CornerChange::Cut;
-  path.nextRoom = room;
   for (int32_t i = 0; i < path.count; ++i) {
     path.functions[i].start = path.following.start;
     path.functions[i].end = path.following.start;
@@ -84,7 +84,8 @@ Step nextCorner(CornerPath &path, uint8_t beginMark, const PathObject &object,
       return Step::Took;
     }
     path.following = object;
-    path.nextRoom = -1.0;
+    path.knownNext.room = -1.0;
+    path.knownNext.isDescribed = false;
     path.hasFollowing = true;
     changeCorner(path);
   }
@@ -94,7 +95,7 @@ Step nextCorner(CornerPath &path, uint8_t beginMark, const PathObject &object,
   path.active = path.active && !ends;
   if (isMotion(object)) {
     path.held = path.following;
-    path.heldRoom = path.nextRoom;
+    path.knownHeld = path.knownNext;
     path.heldActive = path.active;
     path.holds = true;
     return Step::Took;

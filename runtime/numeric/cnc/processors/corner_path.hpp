@@ -35,12 +35,12 @@ struct CornerPath {
   PathObject piece;
   PathObject following; ///< The next one, as it is after its corner.
   PathObject functions[kMostAtCorner];
-  double heldRoom; ///< What may be cut off the end of `held`; negative: half of it. [u]
-  double nextRoom; ///< Likewise of `following`.
-  int32_t count;   ///< Of `functions`.
-  int32_t done;    ///< How many of them have been put out.
-  bool active;     ///< Between the marks.
-  bool heldActive; ///< What is held has a corner that may change.
+  BeforeCorner knownHeld; ///< Of `held`.
+  BeforeCorner knownNext; ///< Of `following`.
+  int32_t count;          ///< Of `functions`.
+  int32_t done;           ///< How many of them have been put out.
+  bool active;            ///< Between the marks.
+  bool heldActive;        ///< What is held has a corner that may change.
   bool holds;
   bool hasPiece;
   bool hasFollowing; ///< What comes before it is being put out.

@@ -92,24 +92,6 @@ bool chooseEnds(const Meeting &meeting, const PieceRules &rules, double roomBefo
 
 // ---- curves
 
-/// Its length to about 1e-12 of the whole, by Gauss's rule of five points on parts of u: in less
-/// time than path::polynomialShape, which is for any polynomial.
-double cubicLength(const Vector3 (&c)[6]) noexcept {
-  constexpr int kParts = 12;
-  constexpr double kPlace[] = {0.0, 0.53846931010568309, 0.90617984593866399};
-  constexpr double kWeight[] = {0.56888888888888889, 0.47862867049936647, 0.23692688505618909};
-  const auto speed = [&c](double u) { return norm(c[1] + (c[2] * 2.0 + c[3] * (3.0 * u)) * u); };
-  constexpr double kHalf = 0.5 / kParts;
-  double sum = 0.0;
-  for (int i = 0; i < kParts; ++i) {
-    const double middle = (2 * i + 1) * kHalf;
-    sum += kWeight[0] * speed(middle);
-    for (int k = 1; k < 3; ++k)
-      sum += kWeight[k] * (speed(middle - kPlace[k] * kHalf) + speed(middle + kPlace[k] * kHalf));
-  }
-  return sum * kHalf;
-}
-
 /// Between equal cuts of two lines, the cubic that touches an arc of a circle in the middle; what
 /// it is for others is an affine picture of that.
 path::Shape cubicOf(const Ends &ends) noexcept {
@@ -118,14 +100,8 @@ path::Shape cubicOf(const Ends &ends) noexcept {
   const Vector3 first = ends.before.d1 * (stretch * ends.cuts.before);
   const Vector3 last = ends.after.d1 * (stretch * ends.cuts.after);
   const Vector3 way = ends.after.p - ends.before.p;
-  path::Shape shape{};
-  shape.kind = path::ShapeKind::Polynomial;
-  shape.v[0] = ends.before.p;
-  shape.v[1] = first;
-  shape.v[2] = way * 3.0 - first * 2.0 - last;
-  shape.v[3] = first + last - way * 2.0;
-  shape.length = cubicLength(shape.v);
-  return shape;
+  return path::polynomialShape({ends.before.p, first, way * 3.0 - first * 2.0 - last,
+                                first + last - way * 2.0, numeric::kZero, numeric::kZero});
 }
 
 /// The blend of numeric/path, drawn out where cuts are not equal.
@@ -270,10 +246,16 @@ bool mayBe(const Meeting &meeting, const PathObject &before, const PathObject &a
 } // namespace
 
 CornerChange makeCorner(PathObject &before, PathObject &after, const PieceRules &rules,
-                        double &room, PathObject &piece) noexcept {
+                        BeforeCorner &known, PathObject &piece) noexcept {
   Meeting meeting{};
   Ends ends{};
-  if (!meet(before, after, meeting) || !mayBe(meeting, before, after, rules))
+  const double room = known.room;
+  ObjectShape shape = known.shape;
+  const bool isDescribed = known.isDescribed || describeAtCorner(before, shape);
+  known.room = -1.0;
+  known.isDescribed = isDescribed && describeAtCorner(after, known.shape);
+  if (!known.isDescribed || !meet(before, shape, after, known.shape, meeting) ||
+      !mayBe(meeting, before, after, rules))
     return CornerChange::Kept;
   const double length = meeting.before.length;
   const double roomBefore = room < 0.0 ? 0.5 * length : smaller(room, length);
@@ -282,14 +264,13 @@ CornerChange makeCorner(PathObject &before, PathObject &after, const PieceRules 
     return CornerChange::Kept;
   PathObject first = before;
   PathObject second = after;
+  BeforeCorner rest{roomAfter, false, known.shape};
   const bool replaced = length - ends.cuts.before <= kNothing * length;
   if (replaced)
     first.end = first.start;
-  else if (cutEnd(first, {meeting.before, meeting.lengthBefore, meeting.measure},
-                  ends.cuts.before) != CutError::None)
+  else if (cutEnd(first, shape, ends.cuts.before) != CutError::None)
     return CornerChange::Kept;
-  if (cutStart(second, {meeting.after, meeting.lengthAfter, meeting.measure}, ends.cuts.after) !=
-      CutError::None)
+  if (cutStart(second, rest.shape, ends.cuts.after, rest.isDescribed) != CutError::None)
     return CornerChange::Kept;
   beginPiece(first, second, piece);
   if (replaced) {
@@ -304,7 +285,7 @@ CornerChange makeCorner(PathObject &before, PathObject &after, const PieceRules 
   first.velocityEnd = smaller(first.velocity, piece.velocity);
   before = first;
   after = second;
-  room = roomAfter;
+  known = rest;
   return replaced ? CornerChange::Replaced : CornerChange::Cut;
 }
 

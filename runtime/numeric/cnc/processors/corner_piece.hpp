@@ -6,6 +6,7 @@
 #define STRIDE_RUNTIME_NUMERIC_CNC_PROCESSORS_CORNER_PIECE_HPP
 
 #include "runtime/numeric/cnc/corner.hpp"
+#include "runtime/numeric/cnc/object_shape.hpp"
 
 namespace stride::cnc {
 
@@ -30,9 +31,16 @@ enum class CornerChange : uint8_t {
   Replaced, ///< Likewise, and nothing is left of the first one: the piece stands for it, too.
 };
 
-/// Puts a piece into the corner where `before` ends and `after` begins. No more than `room` is cut
-/// off `before`, which may be all that there is, or half of it if `room` is negative; and no more
-/// than half of `after`: `room` is what may then be cut off its end.
+/// What is known of an object before its corner.
+struct BeforeCorner {
+  double room;      ///< What may be cut off its end; negative: half of it. [u]
+  bool isDescribed; ///< `shape` is what describeAtCorner() says.
+  ObjectShape shape;
+};
+
+/// Puts a piece into the corner where `before` ends and `after` begins. No more than `known` says
+/// is cut off `before`, which may be all that there is, and no more than half of `after`; then
+/// `known` is about `after`. A corner that stays has no room in it.
 ///
 /// A piece of polynomials between lines lies in the triangle of the corner and both cuts, so it is
 /// nowhere further from the corner than `distance`. It comes as near to the corner as
@@ -45,7 +53,7 @@ enum class CornerChange : uint8_t {
 /// as they were from the cut, but in its half of their object. What the piece has no place for goes
 /// to the ends of the objects that are next to it. [u] in
 CornerChange makeCorner(PathObject &before, PathObject &after, const PieceRules &rules,
-                        double &room, PathObject &piece) noexcept;
+                        BeforeCorner &known, PathObject &piece) noexcept;
 
 } // namespace stride::cnc
 

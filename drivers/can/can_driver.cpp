@@ -1,0 +1,175 @@
+#include "drivers/can/can_driver.hpp"
+
+#include "drivers/can/master/frames.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace stride::can {
+namespace {
+
+static_assert(cyclic::kPosition == bus::kPosition && cyclic::kVelocity == bus::kVelocity &&
+              cyclic::kTorque == bus::kTorque && cyclic::kCurrent == bus::kCurrent);
+
+/// So long set values may brake an axis after the application has stopped.
+constexpr double kStopPatience = 1; // s
+/// And so long until all drives are off.
+constexpr double kOffPatience = 3; // s
+/// A drive that is not told to move for so many cycles stands.
+constexpr uint32_t kStandingCycles = 10;
+
+} // namespace
+
+CanDriver::CanDriver(const bus::GroupSetup &setup, std::unique_ptr<Port> port)
+    : CanDriver(canSetup(setup), std::move(port)) {}
+
+CanDriver::CanDriver(const CanSetup &setup, std::unique_ptr<Port> port)
+    : master_(setup.master, std::move(port)), load_(setup.load), faults_(setup.faults),
+      periodNs_(std::max<int64_t>(static_cast<int64_t>(setup.master.cycle * 1e9 + 0.5), 1)),
+      stopPatience_(cyclesOf(kStopPatience, setup.master.cycle)),
+      offPatience_(cyclesOf(kOffPatience, setup.master.cycle)), standing_(setup.faults.size()),
+      drives_(setup.faults.size()), syncDevice_(setup.hasSyncDevice) {}
+
+void CanDriver::attach(bus::DriverHost &host) {
+  host_ = &host;
+  master_.attach(host);
+  if (!load_.fits())
+    master_.news().say("SYNC and PDOs need ", static_cast<uint32_t>(load_.share * 100 + 0.5),
+                       " % of the cycle: it must have ", load_.shortestCycle, " us");
+}
+
+void CanDriver::executeStart() {
+  master_.executeStart();
+  if (syncDevice_)
+    startSyncDevice();
+  if (host_ != nullptr && !stopped_ && master_.syncRuns())
+    host_->raise(bus::BusEvent::Sync);
+}
+
+/// It belongs to no axis: nobody else asks for its start-up.
+void CanDriver::startSyncDevice() {
+  Node &device = master_.node(drives_);
+  if (syncDeviceFailed_ || device.started())
+    return;
+  uint16_t progress = 0;
+  bus::Message message;
+  if (device.init(progress, message, master_.news()) != bus::StartUp::Failed)
+    return;
+  syncDeviceFailed_ = true;
+  master_.news().say("SYNC device: ", message.text());
+}
+
+void CanDriver::executeEnd() {
+  if (stopped_)
+    stop();
+  master_.executeEnd();
+}
+
+/// Set values brake the axes; who does not stand then stops by himself. Who stands goes off.
+void CanDriver::stop() {
+  stopCycles_ = std::min(stopCycles_ + 1, offPatience_);
+  for (size_t i = 0; i < drives_; ++i) {
+    Drive402 &drive = master_.node(i).drive();
+    standing_[i] = drive.commandedToMove() ? 0 : std::min(standing_[i] + 1, kStandingCycles);
+    if (standing_[i] == kStandingCycles)
+      drive.shutDown();
+    else if (stopCycles_ >= stopPatience_)
+      drive.quickStop();
+  }
+}
+
+bus::StartUp CanDriver::init(size_t drive, uint16_t &progress, bus::Message &message) {
+  progress = 0;
+  if (!faults_[drive].empty()) {
+    message.set(std::string_view(faults_[drive]));
+    return bus::StartUp::Failed;
+  }
+  if (master_.busLost() && !master_.node(drive).started()) {
+    master_.problem(message);
+    return bus::StartUp::Failed;
+  }
+  return master_.node(drive).init(progress, message, master_.news());
+}
+
+void CanDriver::reset(size_t drive) {
+  master_.node(drive).reset();
+  if (!syncDevice_ || (!syncDeviceFailed_ && master_.node(drives_).loss() == NodeLoss::None))
+    return;
+  master_.node(drives_).reset();
+  syncDeviceFailed_ = false;
+}
+
+bus::DriveStatus CanDriver::status(size_t drive) const { return master_.node(drive).status(); }
+
+void CanDriver::command(size_t drive, const bus::DriveCommand &command) {
+  master_.node(drive).drive().command(command);
+}
+
+uint8_t CanDriver::controllerModes(size_t drive) const {
+  return master_.node(drive).drive().controllerModes();
+}
+
+uint8_t CanDriver::captureInputs(size_t drive) const {
+  return master_.node(drive).config().drive.probeInputs;
+}
+
+bool CanDriver::startParameter(size_t drive, const bus::ParameterRequest &request) {
+  if (!master_.node(drive).started())
+    return false;
+  master_.node(drive).parameters().start(request);
+  return true;
+}
+
+bool CanDriver::pollParameter(size_t drive, bus::ParameterAnswer &answer) {
+  return master_.node(drive).parameters().poll(answer);
+}
+
+void CanDriver::cancelParameter(size_t drive) {
+  Node &node = master_.node(drive);
+  node.parameters().cancel(node.sdo());
+}
+
+bus::SyncWake CanDriver::waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) {
+  const int64_t monotonic = clock.monotonicNs(deadlineNs);
+  const bool isVirtual = monotonic == std::numeric_limits<int64_t>::max();
+  if (!isVirtual && master_.nodeGivesSync()) {
+    const uint32_t syncs = master_.awaitSync(monotonic);
+    if (syncs == 0) {
+      clock.sleepUntil(deadlineNs); // a port that cannot wait
+      return {deadlineNs};
+    }
+    return {clock.nowNs(), true, syncs - 1};
+  }
+  // SYNC is where the cycle begins: the master's, or that of a bus that goes with virtual time.
+  const int64_t now = clock.nowNs();
+  int64_t next = afterNs < 0 ? now : afterNs + periodNs_;
+  uint64_t missed = 0;
+  if (next < now) {
+    missed = static_cast<uint64_t>((now - next) / periodNs_);
+    next += static_cast<int64_t>(missed) * periodNs_;
+  }
+  if (next <= now)
+    return {next, master_.syncRuns(), missed};
+  const bool arrives = next <= deadlineNs;
+  clock.sleepUntil(arrives ? next : deadlineNs);
+  return {arrives ? next : deadlineNs, arrives && master_.syncRuns(), missed};
+}
+
+void CanDriver::applicationStopped() { stopped_ = true; }
+
+bool CanDriver::atRest() const {
+  if (!stopped_ || stopCycles_ >= offPatience_)
+    return true;
+  for (size_t i = 0; i < drives_; ++i) {
+    const Node &node = master_.node(i);
+    if (node.communication() && node.drive().powerState() == PowerState::Enabled)
+      return false;
+    if (node.communication() && !node.drive().atRest())
+      return false;
+  }
+  return true;
+}
+
+void CanDriver::problem(bus::Message &text) const { master_.problem(text); }
+
+} // namespace stride::can

@@ -1,0 +1,98 @@
+#include "drivers/can/can_setup.hpp"
+
+#include "drivers/can/master/frames.hpp"
+#include "drivers/can/schema.hpp"
+
+#include <algorithm>
+
+namespace stride::can {
+namespace {
+
+constexpr double kHomingPatience = 2; // s
+constexpr double kFaultResetTime = 1; // s
+
+DriveConfig driveConfig(const bus::SetupParameters &given, double cycle) {
+  DriveConfig drive;
+  drive.cycle = cycle;
+  const auto cycles = [&](const char *name) { return cyclesOf(given.number(name), cycle); };
+  drive.power.off = given.number("power_off") == static_cast<double>(kShutdown)
+                        ? PowerOff::Shutdown
+                        : PowerOff::DisableVoltage;
+  drive.power.timeout = cycles("power_timeout");
+  drive.power.resetTime = cyclesOf(kFaultResetTime, cycle);
+  drive.brakeRelease = given.number("brake_release") > 0 ? cycles("brake_release") : 0;
+  drive.modeTimeout = cycles("mode_timeout");
+  drive.homingTimeout = cyclesOf(kHomingPatience, cycle);
+  drive.homesItself = given.number("homing") == static_cast<double>(kHomesItself);
+  drive.inputsInverted = static_cast<uint8_t>(given.number("inputs_inverted"));
+  drive.probeInputs = static_cast<uint8_t>(given.number("probe_inputs"));
+  drive.torqueRated = given.number("torque_rated");
+  drive.velocityScale = given.number("velocity_scale");
+  return drive;
+}
+
+NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
+                      const DrivePlan &plan) {
+  NodeConfig node;
+  node.plan = plan;
+  node.cycle = setup.cycleSeconds;
+  node.drive = driveConfig(given, setup.cycleSeconds);
+  node.reset = static_cast<NodeConfig::Reset>(given.number("reset"));
+  node.identity = {static_cast<uint32_t>(given.number("identity.vendor")),
+                   static_cast<uint32_t>(given.number("identity.product")),
+                   static_cast<uint32_t>(given.number("identity.revision")),
+                   static_cast<uint32_t>(given.number("identity.serial"))};
+  node.sdoTimeout = setup.busParameters.number("sdo_timeout");
+  node.heartbeat = setup.busParameters.number("heartbeat");
+  node.masterNode = static_cast<uint8_t>(setup.busParameters.number("node_id"));
+  node.guard = given.number("guard");
+  node.pdoTimeout = static_cast<uint32_t>(given.number("pdo_timeout"));
+  return node;
+}
+
+/// A place in the list of nodes that nobody answers at.
+NodeConfig nobody(const NodeConfig &like) {
+  NodeConfig node = like;
+  node.plan = {};
+  return node;
+}
+
+} // namespace
+
+CanSetup canSetup(const bus::GroupSetup &setup) {
+  CanSetup result;
+  MasterConfig &master = result.master;
+  const GroupPlan plan = planGroup(setup);
+  result.hasSyncDevice = plan.sync == SyncProducer::Device;
+  result.faults = plan.faults;
+  for (size_t i = 0; i < setup.drives.size(); ++i) {
+    NodeConfig node = nodeConfig(setup, setup.drives[i].parameters, plan.drives[i].plan);
+    if (!result.faults[i].empty())
+      node = nobody(node);
+    node.producesSync = plan.sync == SyncProducer::FirstDrive && i == 0;
+    master.nodes.push_back(std::move(node));
+  }
+  if (result.hasSyncDevice) {
+    NodeConfig device;
+    device.kind = NodeConfig::Kind::SyncDevice;
+    device.plan.node = kSyncDevice;
+    device.cycle = setup.cycleSeconds;
+    device.sdoTimeout = setup.busParameters.number("sdo_timeout");
+    device.producesSync = true;
+    master.nodes.push_back(device);
+  }
+  master.cycle = setup.cycleSeconds;
+  master.heartbeat = setup.busParameters.number("heartbeat");
+  master.node = static_cast<uint8_t>(setup.busParameters.number("node_id"));
+  master.givesSync = plan.sync == SyncProducer::Master;
+  result.bitRate = plan.bitRate;
+  result.load = plan.load;
+  master.sdoPerCycle = result.load.sdoPerCycle;
+  result.interface = setup.busParameters.text("interface");
+  if (result.interface.empty())
+    result.interface =
+        "can" + std::to_string(static_cast<int>(setup.parameters.number("ControllerNo")));
+  return result;
+}
+
+} // namespace stride::can

@@ -1,0 +1,27 @@
+// What the PLC configuration says, for the master.
+#ifndef STRIDE_DRIVERS_CAN_CAN_SETUP_HPP
+#define STRIDE_DRIVERS_CAN_CAN_SETUP_HPP
+
+#include "drivers/can/master/master.hpp"
+#include "drivers/can/plan/group_plan.hpp"
+#include "runtime/bus/group_setup.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stride::can {
+
+struct CanSetup {
+  MasterConfig master;
+  BusLoad load;
+  std::string interface;           ///< "can0".
+  uint32_t bitRate = 1000;         ///< [kBit/s]
+  std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
+  bool hasSyncDevice = false;      ///< It is the last node.
+};
+
+CanSetup canSetup(const bus::GroupSetup &setup);
+
+} // namespace stride::can
+
+#endif

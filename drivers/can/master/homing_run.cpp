@@ -1,0 +1,79 @@
+#include "drivers/can/master/homing_run.hpp"
+
+#include "drivers/can/master/power.hpp"
+
+#include <algorithm>
+
+namespace stride::can {
+namespace {
+
+/// Cycles until the drive's word can speak of this run: there and back, and one of its own.
+constexpr uint32_t kDeadTime = 4;
+
+} // namespace
+
+void HomingRun::go(Step step) {
+  step_ = step;
+  cycles_ = 0;
+}
+
+void HomingRun::step(const Facts &facts) {
+  if (!facts.wanted) {
+    go(Step::Idle);
+    return;
+  }
+  cycles_ = std::min(cycles_ + 1, timeout_);
+  const bool late = cycles_ >= timeout_;
+  switch (step_) {
+  case Step::Idle:
+    moved_ = false;
+    go(facts.possible && facts.enabled ? Step::Entering : Step::Failed);
+    break;
+  case Step::Entering:
+    if (facts.modeLate || !facts.enabled)
+      go(Step::Failed);
+    else if (facts.inMode)
+      go(Step::Starting);
+    break;
+  case Step::Starting:
+    if (!facts.enabled)
+      go(Step::Failed);
+    else if (cycles_ >= kDeadTime)
+      go(Step::Running);
+    break;
+  case Step::Running:
+    if (!facts.enabled)
+      go(Step::Failed);
+    else
+      watch(facts.statusword);
+    break;
+  case Step::Leaving:
+    if (facts.inOther)
+      go(Step::Found);
+    else if (facts.modeLate || late)
+      go(Step::Failed);
+    break;
+  case Step::Found:
+  case Step::Failed:
+    break;
+  }
+}
+
+/// Bit 12: attained; 13: error; 10: at rest. 10 alone: interrupted, or not started yet.
+void HomingRun::watch(uint16_t statusword) {
+  const bool attained = (statusword & kHomingAttained) != 0;
+  const bool atRest = (statusword & kTargetReached) != 0;
+  const bool late = cycles_ >= timeout_;
+  if ((statusword & kHomingError) != 0)
+    go(Step::Failed);
+  else if (attained && (atRest || late))
+    go(Step::Leaving);
+  else if (!attained && atRest && (moved_ || late))
+    go(Step::Failed);
+  else if (!attained && !atRest) {
+    moved_ = true;
+    cycles_ = 0; // it may look for its reference as long as it likes
+  }
+}
+
+} // namespace stride::can

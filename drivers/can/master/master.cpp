@@ -1,0 +1,248 @@
+#include "drivers/can/master/master.hpp"
+
+#include "drivers/can/master/frames.hpp"
+
+#include <algorithm>
+
+namespace stride::can {
+namespace {
+
+constexpr uint32_t kMostMissed = 3;
+constexpr uint32_t kMostLate = 2;
+/// Frames that are read in a cycle, as a multiple of those that are planned.
+constexpr size_t kReserve = 4;
+
+size_t plannedFrames(const MasterConfig &config) {
+  size_t frames = 1 + config.sdoPerCycle;
+  for (const NodeConfig &node : config.nodes)
+    frames += node.plan.tpdoCount + 2U; // heartbeat, EMCY
+  return frames;
+}
+
+bool isLost(ControllerState state) {
+  return state == ControllerState::BusOff || state == ControllerState::Down;
+}
+
+} // namespace
+
+Master::Master(const MasterConfig &config, std::unique_ptr<Port> port)
+    : config_(config), port_(std::move(port)), frames_(kReserve * plannedFrames(config)),
+      heartbeatCycles_(cyclesOf(config.heartbeat, config.cycle)) {
+  nodes_.reserve(config.nodes.size());
+  for (const NodeConfig &node : config.nodes) {
+    nodes_.emplace_back(node);
+    addRoutes(static_cast<uint8_t>(nodes_.size() - 1));
+  }
+  routes_[kSyncCobId] = {Kind::Sync};
+}
+
+void Master::addRoutes(uint8_t index) {
+  const DrivePlan &plan = config_.nodes[index].plan;
+  routes_[kSdoAnswerBase + plan.node] = {Kind::Sdo, index};
+  routes_[kHeartbeatBase + plan.node] = {Kind::Heartbeat, index};
+  routes_[kEmcyBase + plan.node] = {Kind::Emcy, index};
+  for (uint8_t place = 0; place < plan.tpdoCount; ++place)
+    routes_[plan.tpdos[place].cobId & Frame::kLastId] = {Kind::Tpdo, index, place};
+}
+
+void Master::executeStart() {
+  port_->beginCycle();
+  watchBus();
+  if (config_.givesSync && !isLost(state_))
+    (void)send(makeFrame(kSyncCobId, 0), SendClass::Process);
+  for (Node &node : nodes_)
+    node.beginReceive();
+  syncs_ = 0;
+  receiveAll();
+  judgeSync();
+  judgeSetValues();
+  const uint32_t syncs = config_.givesSync ? 1 : syncs_;
+  bool duplicate = false;
+  for (Node &node : nodes_) {
+    node.endReceive(syncs, news_);
+    duplicate = duplicate || (node.started() && node.duplicate());
+  }
+  if (duplicate)
+    for (Node &node : nodes_)
+      node.lose(NodeLoss::Duplicate, news_);
+}
+
+void Master::watchBus() {
+  const ControllerState before = state_;
+  state_ = port_->state();
+  if (isLost(state_)) {
+    if (!isLost(before))
+      news_.say(state_ == ControllerState::BusOff ? "bus-off: the controller takes no part any more"
+                                                  : "the interface is down");
+    for (Node &node : nodes_)
+      node.lose(NodeLoss::Bus, news_);
+  } else if (isLost(before)) {
+    news_.say("the bus is back");
+  } else if (state_ == ControllerState::Passive && before != ControllerState::Passive) {
+    news_.say("the controller is error-passive: check wiring, termination and bit rate");
+  }
+  const uint64_t dropped = port_->counters().dropped;
+  if (dropped > dropped_)
+    news_.say(static_cast<uint32_t>(dropped - dropped_),
+              " received frames were lost for want of room");
+  dropped_ = dropped;
+}
+
+void Master::receiveAll() {
+  size_t count = early_;
+  early_ = 0;
+  count += port_->receive(std::span(frames_).subspan(count));
+  count = std::min(count, frames_.size());
+  for (size_t i = 0; i < count; ++i)
+    take(frames_[i].frame);
+  if (count < frames_.size())
+    return;
+  ++counters_.overloads;
+  if (!saidOverload_)
+    news_.say("more frames than ", static_cast<uint32_t>(count),
+              " in a cycle: the rest is read in the next ones");
+  saidOverload_ = true;
+}
+
+void Master::take(const Frame &frame) {
+  if (frame.id > Frame::kLastId || frame.length > Frame::kMostBytes || frame.remote)
+    return;
+  const Route route = routes_[frame.id];
+  switch (route.kind) {
+  case Kind::None:
+    break;
+  case Kind::Tpdo:
+    nodes_[route.node].tpdo(route.place, frame);
+    break;
+  case Kind::Sdo:
+    nodes_[route.node].sdoAnswer(frame);
+    break;
+  case Kind::Heartbeat:
+    nodes_[route.node].heartbeat(frame);
+    break;
+  case Kind::Emcy:
+    nodes_[route.node].emcy(frame, news_);
+    break;
+  case Kind::Sync:
+    ++syncs_;
+    break;
+  }
+}
+
+void Master::judgeSync() {
+  if (config_.givesSync) {
+    counters_.foreignSyncs += syncs_;
+    if (syncs_ > 0 && !saidForeign_)
+      news_.say("somebody else gives SYNC, too: see SyncProducer");
+    saidForeign_ = saidForeign_ || syncs_ > 0;
+    return;
+  }
+  syncSeen_ = syncSeen_ || syncs_ > 0;
+  if (!syncSeen_)
+    return;
+  counters_.syncMissed += syncs_ == 0 ? 1 : 0;
+  counters_.syncTwice += syncs_ > 1 ? 1 : 0;
+  missedInRow_ = syncs_ == 0 ? std::min(missedInRow_ + 1, kMostMissed + 1) : 0;
+  if (missedInRow_ == kMostMissed)
+    news_.say("no SYNC for ", kMostMissed, " cycles");
+}
+
+/// PDOs that are still waiting when the next cycle begins come too late for its SYNC.
+void Master::judgeSetValues() {
+  const bool late = port_->unconfirmed() > 0;
+  counters_.setValuesLate += late ? 1 : 0;
+  lateInRow_ = late ? std::min(lateInRow_ + 1, kMostLate + 1) : 0;
+  if (lateInRow_ == kMostLate)
+    news_.say("set values are late: the bus is too slow for this cycle");
+  for (Node &node : nodes_)
+    node.setLate(lateInRow_ >= kMostLate);
+}
+
+uint32_t Master::awaitSync(int64_t monotonicNs) {
+  uint32_t syncs = 0;
+  for (;;) {
+    const size_t count = port_->receive(std::span(frames_).subspan(early_));
+    for (size_t i = 0; i < count && early_ < frames_.size(); ++i)
+      syncs += frames_[early_++].frame.id == kSyncCobId ? 1 : 0;
+    if (syncs > 0 || early_ == frames_.size() || !port_->wait(monotonicNs))
+      return syncs;
+  }
+}
+
+bool Master::send(const Frame &frame, SendClass sendClass) {
+  const SendResult result = port_->send(frame, sendClass);
+  counters_.sendQueueFull += result == SendResult::QueueFull ? 1 : 0;
+  return result == SendResult::Sent;
+}
+
+void Master::executeEnd() {
+  for (Node &node : nodes_)
+    node.makePdos();
+  if (isLost(state_))
+    return;
+  sendPdos();
+  sendCommands();
+  sendHeartbeat();
+  sendSdos();
+}
+
+void Master::sendPdos() {
+  for (Node &node : nodes_) {
+    for (size_t place = 0; place < node.rpdoCount(); ++place)
+      if (node.rpdoDue(place))
+        node.rpdoSent(place, send(node.rpdo(place), SendClass::Process));
+    node.endOfPdos(news_);
+  }
+}
+
+void Master::sendCommands() {
+  for (Node &node : nodes_) {
+    if (node.nmt() != NmtCommand::None &&
+        send(nmtFrame(node.nmt(), node.number()), SendClass::Service))
+      node.nmtSent();
+    if (node.supervision().asks() && send(node.supervision().question(), SendClass::Service))
+      node.supervision().asked();
+  }
+}
+
+void Master::sendHeartbeat() {
+  if (toHeartbeat_ > 0) {
+    --toHeartbeat_;
+    return;
+  }
+  Frame frame = makeFrame(kHeartbeatBase + config_.node, 1);
+  frame.data[0] = nmt::kOperational;
+  if (send(frame, SendClass::Service))
+    toHeartbeat_ = heartbeatCycles_ - 1;
+}
+
+/// As many as the bus has room for; each node in its turn.
+void Master::sendSdos() {
+  uint32_t room = config_.sdoPerCycle;
+  size_t idle = 0; // nodes in a row without a question
+  while (room > 0 && idle < nodes_.size()) {
+    SdoClient &sdo = nodes_[nextSdo_].sdo();
+    nextSdo_ = (nextSdo_ + 1) % nodes_.size();
+    if (!sdo.pending()) {
+      ++idle;
+      continue;
+    }
+    if (!send(sdo.nextFrame(), SendClass::Service))
+      return;
+    sdo.sent();
+    idle = 0;
+    --room;
+  }
+}
+
+void Master::problem(bus::Message &text) const {
+  if (state_ == ControllerState::BusOff)
+    text.set("bus-off: the CAN controller takes no part any more");
+  else if (state_ == ControllerState::Down)
+    text.set(port_->problem().empty() ? "the CAN interface is not there or not up"
+                                      : port_->problem());
+  else if (missedInRow_ >= kMostMissed)
+    text.set("no SYNC from the node that gives it");
+}
+
+} // namespace stride::can

@@ -1,0 +1,314 @@
+#include "drivers/can/master/node.hpp"
+
+#include "drivers/can/master/frames.hpp"
+#include "drivers/can/master/texts.hpp"
+
+#include <algorithm>
+
+namespace stride::can {
+namespace {
+
+constexpr double kRefresh = 0.1; ///< RPDOs by event go out at least so often. [s]
+constexpr uint32_t kMostWrong = 3;
+constexpr uint32_t kMostFailedSends = 2;
+
+uint8_t placeBit(size_t place) { return static_cast<uint8_t>(1U << place); }
+
+/// The TPDOs without which nothing is known of a drive.
+uint8_t neededPdos(const DrivePlan &plan) {
+  uint8_t needed = 0;
+  for (size_t i = 0; i < plan.tpdoCount; ++i) {
+    const Pdo &pdo = plan.tpdos[i];
+    const bool state =
+        std::any_of(pdo.mapped().begin(), pdo.mapped().end(), [](const PdoEntry &entry) {
+          return signalOf(entry.object) == Signal::Statusword;
+        });
+    if (pdo.synchronous() || state)
+      needed = needed | placeBit(i);
+  }
+  return needed;
+}
+
+} // namespace
+
+std::string_view describe(NodeLoss loss) {
+  static constexpr std::array<std::string_view, 5> kTexts = {
+      "",
+      " has restarted in operation",
+      " has left the state operational",
+      " cannot be reached: the bus is off or the interface is down",
+      " sends more than one node can: duplicate node id?",
+  };
+  return kTexts[static_cast<size_t>(loss)];
+}
+
+Node::Node(const NodeConfig &config)
+    : config_(config), sdo_(config.plan.node, cyclesOf(config.sdoTimeout, config.cycle)),
+      supervision_(config.plan.node), startUp_(config), drive_(config.drive, config.plan),
+      parameters_(config.parameters), refreshCycles_(cyclesOf(kRefresh, config.cycle)),
+      needed_(neededPdos(config.plan)) {}
+
+void Node::tpdo(size_t place, const Frame &frame) {
+  const Pdo &pdo = config_.plan.tpdos[place];
+  if (!decode(pdo, frame, signals_)) {
+    wrongLength_ = std::min(wrongLength_ + 1, kMostWrong);
+    return;
+  }
+  wrongLength_ = 0;
+  seen_ = seen_ | placeBit(place);
+  if (arrived_[place] < UINT8_MAX)
+    ++arrived_[place];
+}
+
+void Node::emcy(const Frame &frame, News &news) {
+  const uint32_t before = emcy_.count();
+  const uint16_t old = emcy_.code();
+  emcy_.received(frame);
+  if (emcy_.count() == before || phase_ == Phase::Idle)
+    return;
+  const Emcy &one = emcy_.message(0);
+  const uint32_t number = config_.plan.node;
+  if (one.code == 0 && old == 0)
+    return;
+  if (one.code == 0)
+    news.say("node ", number, ": its error has gone");
+  else
+    news.say("node ", number,
+             isCommunicationWarning(one.code) ? " warns: " : " reports: ", errorText(one.code),
+             " (EMCY ", HexText(one.code, 4), ")");
+}
+
+void Node::beginReceive() { arrived_ = {}; }
+
+void Node::endReceive(uint32_t syncs, News &news) {
+  sdo_.cycle();
+  supervision_.cycle();
+  if (phase_ != Phase::Started)
+    return;
+  countPdos(syncs);
+  watch(news);
+  drive_.read(signals_, emcy_.code());
+  drive_.reach(communication());
+  if (drive_.velocityDoubtful())
+    news.say("node ", uint32_t{config_.plan.node},
+             ": its velocity (606Ch) does not fit its positions (6064h): check velocity_scale");
+  if (drive_.stuck() && !saidStuck_)
+    news.say("node ", uint32_t{config_.plan.node}, " stays in '", nameOf(drive_.powerState()),
+             "' whatever it is told");
+  saidStuck_ = drive_.stuck();
+  serveSdo(news);
+}
+
+/// Synchronous TPDOs: one for each SYNC. Late ones come with the next.
+void Node::countPdos(uint32_t syncs) {
+  const uint32_t due = std::max(syncs, 1U);
+  bool all = true;
+  uint32_t most = 0;
+  bool any = false;
+  for (size_t i = 0; i < config_.plan.tpdoCount; ++i) {
+    if (!config_.plan.tpdos[i].synchronous())
+      continue;
+    any = true;
+    all = all && arrived_[i] > 0;
+    most = std::max<uint32_t>(most, arrived_[i]);
+  }
+  if (!any)
+    return;
+  missing_ = all ? 0 : std::min(missing_ + 1, config_.pdoTimeout);
+  if (most > due)
+    excess_ = std::min(excess_ + most - due, kMostExcess);
+  else if (most == 0 && excess_ > 0 && !duplicate())
+    --excess_;
+}
+
+void Node::watch(News &news) {
+  if (loss_ == NodeLoss::None) {
+    if (supervision_.bootUps() != bootUps_)
+      lose(NodeLoss::Restarted, news);
+    else if (supervision_.kind() != Supervision::Kind::None &&
+             supervision_.state() != nmt::kOperational)
+      lose(NodeLoss::LeftOperational, news);
+  }
+  silent_ = supervision_.lost() || missing_ >= config_.pdoTimeout || wrongLength_ >= kMostWrong;
+  const uint32_t number = config_.plan.node;
+  if (silent_ && !saidSilent_ && loss_ == NodeLoss::None) {
+    if (wrongLength_ >= kMostWrong)
+      news.say("node ", number, " sends PDOs of another length than they are configured");
+    else if (supervision_.lost())
+      news.say("node ", number, " is silent: no heartbeat");
+    else
+      news.say("node ", number, " is silent: no PDO for ", missing_, " cycles");
+  } else if (!silent_ && saidSilent_ && loss_ == NodeLoss::None) {
+    news.say("node ", number, " answers again");
+  }
+  saidSilent_ = silent_;
+}
+
+void Node::lose(NodeLoss loss, News &news) {
+  if (phase_ != Phase::Started || loss_ != NodeLoss::None)
+    return;
+  loss_ = loss;
+  news.say("node ", uint32_t{config_.plan.node}, describe(loss),
+           "; SMC_ResetAxisGroup or SMC3_ReinitDrive starts it anew");
+}
+
+bool Node::communication() const {
+  return phase_ == Phase::Started && loss_ == NodeLoss::None && !silent_ && !late_ &&
+         failedSends_ < kMostFailedSends;
+}
+
+bus::DriveStatus Node::status() const {
+  bus::DriveStatus status = drive_.status();
+  status.communication = communication();
+  return status;
+}
+
+void Node::makePdos() {
+  if (phase_ != Phase::Started) {
+    for (Rpdo &one : rpdos_)
+      one.due = false;
+    return;
+  }
+  drive_.write(signals_);
+  for (size_t i = 0; i < config_.plan.rpdoCount; ++i) {
+    const Pdo &pdo = config_.plan.rpdos[i];
+    Rpdo &one = rpdos_[i];
+    one.frame = encode(pdo, signals_);
+    if (one.refresh > 0)
+      --one.refresh;
+    one.due = pdo.synchronous() || !one.known || one.frame != one.last || one.refresh == 0;
+  }
+}
+
+void Node::rpdoSent(size_t place, bool taken) {
+  Rpdo &one = rpdos_[place];
+  one.due = !taken;
+  one.known = taken;
+  if (!taken)
+    return;
+  one.last = one.frame;
+  one.refresh = refreshCycles_;
+}
+
+void Node::endOfPdos(News &news) {
+  const bool failed =
+      std::any_of(rpdos_.begin(), rpdos_.end(), [](const Rpdo &one) { return one.due; });
+  const uint32_t before = failedSends_;
+  failedSends_ = failed ? std::min(failedSends_ + 1, kMostFailedSends) : 0;
+  if (failedSends_ == kMostFailedSends && before < kMostFailedSends && loss_ == NodeLoss::None)
+    news.say("node ", uint32_t{config_.plan.node},
+             " does not get its set values: the queue of the interface is full");
+}
+
+bus::StartUp Node::init(uint16_t &progress, bus::Message &message, News &news) {
+  if (phase_ == Phase::Started)
+    return bus::StartUp::Started;
+  if (phase_ != Phase::Starting) {
+    reset();
+    nmt_ = NmtCommand::None;
+    phase_ = Phase::Starting;
+    startUp_.begin();
+    facts_ = {};
+    seen_ = 0;
+  }
+  const bool arrived = (seen_ & needed_) == needed_;
+  const StartParts parts{config_, sdo_, supervision_, facts_, nmt_, arrived};
+  const bus::StartUp result = startUp_.step(parts, message);
+  progress = startUp_.progress();
+  if (result == bus::StartUp::Failed)
+    phase_ = Phase::Failed;
+  else if (result == bus::StartUp::Started)
+    started(news);
+  return result;
+}
+
+void Node::started(News &news) {
+  phase_ = Phase::Started;
+  bootUps_ = supervision_.bootUps();
+  drive_.begin(facts_, signals_);
+  for (Rpdo &one : rpdos_)
+    one = {};
+  sayLacks(news);
+}
+
+void Node::sayLacks(News &news) const {
+  const uint32_t number = config_.plan.node;
+  if (config_.kind == NodeConfig::Kind::Drive && !isExactPeriod(config_.cycle))
+    news.say("node ", number, ": its interpolation period (60C2h) cannot be exactly the cycle");
+  if (startUp_.lacksConsumer())
+    news.say("node ", number,
+             " has no consumer heartbeat (1016h): it does not notice when this program ends");
+  if (startUp_.lacksHeartbeat())
+    news.say("node ", number, " has no heartbeat (1017h): only its PDOs show that it is there");
+}
+
+void Node::reset() {
+  if (phase_ != Phase::Idle)
+    nmt_ = NmtCommand::PreOperational;
+  phase_ = Phase::Idle;
+  sdo_.clear();
+  supervision_.clear();
+  emcy_.clear();
+  drive_.end();
+  parameters_.clear();
+  user_ = SdoUser::None;
+  loss_ = NodeLoss::None;
+  silent_ = saidSilent_ = saidStuck_ = false;
+  missing_ = excess_ = wrongLength_ = failedSends_ = 0;
+  seen_ = 0;
+}
+
+/// The SDO channel in operation: first what the drive needs, then what programs ask.
+void Node::serveSdo(News &news) {
+  if (user_ != SdoUser::None) {
+    if (sdo_.state() == SdoClient::State::Busy)
+      return;
+    const SdoUser user = user_;
+    user_ = SdoUser::None;
+    if (user == SdoUser::Parameter) {
+      parameters_.finished(sdo_);
+      if (sdo_.state() == SdoClient::State::Busy) // the second half of a write
+        user_ = SdoUser::Parameter;
+    } else {
+      wishAnswered(news);
+    }
+    if (user_ != SdoUser::None)
+      return;
+  }
+  if (sdo_.pending()) // an abort
+    return;
+  const ObjectWish wish = loss_ == NodeLoss::None ? drive_.wish() : ObjectWish{};
+  if (wish.kind != ObjectWish::Kind::None) {
+    beginWish(wish);
+  } else if (parameters_.wants()) {
+    parameters_.begin(sdo_);
+    user_ = sdo_.state() == SdoClient::State::Busy ? SdoUser::Parameter : SdoUser::None;
+  }
+}
+
+void Node::wishAnswered(News &news) {
+  ObjectAnswer answer{sdo_.state() == SdoClient::State::Done, 0};
+  for (size_t i = 0; answer.done && wish_.kind == ObjectWish::Kind::Read && i < sdo_.size(); ++i)
+    answer.value |= uint32_t{wishBytes_[i]} << 8 * i;
+  drive_.answered(wish_, answer);
+  const auto code = static_cast<uint16_t>(answer.value);
+  if (wish_.object == object::kErrorCode && answer.done && code != 0 && code != emcy_.code())
+    news.say("node ", uint32_t{config_.plan.node}, " has a fault: ", errorText(code),
+             " (603Fh = ", HexText(code, 4), ")");
+}
+
+void Node::beginWish(const ObjectWish &wish) {
+  wish_ = wish;
+  bool begun = false;
+  if (wish.kind == ObjectWish::Kind::Read) {
+    begun = sdo_.upload(wish.object, wishBytes_);
+  } else {
+    for (size_t i = 0; i < wishBytes_.size(); ++i)
+      wishBytes_[i] = static_cast<uint8_t>(wish.value >> 8 * i);
+    const size_t size = std::clamp<size_t>(wish.size, 1, wishBytes_.size());
+    begun = sdo_.download(wish.object, std::span<const uint8_t>(wishBytes_).first(size));
+  }
+  user_ = begun ? SdoUser::Drive : SdoUser::None;
+}
+
+} // namespace stride::can

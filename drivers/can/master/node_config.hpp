@@ -1,0 +1,40 @@
+// What the master is told about one node.
+#ifndef STRIDE_DRIVERS_CAN_MASTER_NODE_CONFIG_HPP
+#define STRIDE_DRIVERS_CAN_MASTER_NODE_CONFIG_HPP
+
+#include "drivers/can/master/drive402.hpp"
+#include "drivers/can/plan/pdo_plan.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace stride::can {
+
+struct NodeConfig {
+  enum class Kind : uint8_t {
+    Drive,
+    SyncDevice, ///< It gives SYNC and nothing else.
+  };
+  enum class Reset : uint8_t { Communication, Node, None };
+  static constexpr size_t kIdentity = 4;
+
+  Kind kind = Kind::Drive;
+  DrivePlan plan; ///< With the number of the node.
+  DriveConfig drive;
+  double cycle = 0.001; ///< [s]
+  Reset reset = Reset::Communication;
+  /// 1018h:1 … 1018h:4: vendor, product, revision, serial number; 0: whichever.
+  std::array<uint32_t, kIdentity> identity{};
+  double sdoTimeout = 0.5;          ///< [s]
+  uint32_t pdoTimeout = 3;          ///< Without a synchronous TPDO the node is silent. [cycles]
+  double heartbeat = 0.1;           ///< Of the node and of the master. [s]
+  double guard = 0;                 ///< Node guarding instead of the node's heartbeat; 0: not. [s]
+  uint8_t masterNode = 126;         ///< Whose heartbeat the node watches.
+  bool producesSync = false;        ///< It gives SYNC, as the last thing in its start-up.
+  std::vector<SdoWrite> parameters; ///< That it is given at start-up, in this order.
+};
+
+} // namespace stride::can
+
+#endif

@@ -1,0 +1,170 @@
+// The list of steps with which a node starts up.
+#include "drivers/can/master/frames.hpp"
+#include "drivers/can/master/start_up.hpp"
+
+#include <algorithm>
+
+namespace stride::can {
+namespace {
+
+// AXIS_REF.wCommunicationState meanwhile.
+constexpr uint8_t kResetting = 0;
+constexpr uint8_t kDeviceType = 10;
+constexpr uint8_t kIdentityStep = 15;
+constexpr uint8_t kStampStep = 20;
+constexpr uint8_t kPdoSteps = 25;
+constexpr uint8_t kParameterSteps = 45;
+constexpr uint8_t kModeSteps = 60;
+constexpr uint8_t kSupervisionSteps = 75;
+constexpr uint8_t kStartStep = 85;
+constexpr uint8_t kSyncSteps = 90;
+constexpr uint8_t kPdoStep = 95;
+
+SdoWrite optional(Object object, uint8_t size = 0, uint32_t value = 0) {
+  return {object, size, value, true};
+}
+
+uint32_t milliseconds(double seconds) {
+  constexpr uint32_t kMost = 65535;
+  return std::clamp(static_cast<uint32_t>(seconds * 1000 + 0.5), 1U, kMost);
+}
+
+/// A time as mantissa and power of ten, as 60C2h has it.
+struct Period {
+  uint8_t mantissa = 1;
+  int8_t exponent = -3;
+  bool exact = true;
+};
+Period periodOf(double seconds) {
+  constexpr uint32_t kMostMantissa = 255;
+  auto mantissa = static_cast<uint32_t>(seconds * 1e6 + 0.5);
+  int8_t exponent = -6;
+  bool exact = true;
+  while (mantissa > kMostMantissa || (mantissa != 0 && mantissa % 10 == 0)) {
+    exact = exact && mantissa % 10 == 0;
+    mantissa = (mantissa + 5) / 10;
+    ++exponent;
+  }
+  return {static_cast<uint8_t>(mantissa), exponent, exact};
+}
+
+class List {
+public:
+  void add(StartOp op, uint8_t progress, const SdoWrite &object = {}) {
+    steps_.push_back({op, progress, object});
+  }
+  /// Writes whose progress goes from one number to the next.
+  void addWrites(std::span<const SdoWrite> writes, uint8_t from, uint8_t to) {
+    for (size_t i = 0; i < writes.size(); ++i) {
+      const auto progress =
+          static_cast<uint8_t>(from + i * static_cast<size_t>(to - from) / writes.size());
+      if (writes[i].keepNoRemote)
+        add(StartOp::NoRemote, progress, optional(writes[i].object));
+      add(StartOp::Write, progress, writes[i]);
+    }
+  }
+  std::vector<StartStep> take() { return std::move(steps_); }
+
+private:
+  std::vector<StartStep> steps_;
+};
+
+void addChecks(List &list, const NodeConfig &config) {
+  list.add(StartOp::DeviceType, kDeviceType, {object::kDeviceType});
+  for (size_t i = 0; i < NodeConfig::kIdentity; ++i)
+    if (config.identity[i] != 0)
+      list.add(StartOp::Identity, kIdentityStep,
+               {{object::kIdentity, static_cast<uint8_t>(i + 1)}, 4, config.identity[i]});
+  list.add(StartOp::SupportedModes, kIdentityStep, optional(object::kSupportedModes));
+  constexpr uint8_t kTorque = cyclic::kTorque;
+  if (((config.plan.sent | config.plan.received) & kTorque) != 0 && config.drive.torqueRated == 0)
+    list.add(StartOp::RatedTorque, kIdentityStep, optional(object::kRatedTorque));
+  if ((config.plan.received & cyclic::kCurrent) != 0)
+    list.add(StartOp::RatedCurrent, kIdentityStep, optional(object::kRatedCurrent));
+  if (((config.plan.sent | config.plan.received) & cyclic::kPosition) != 0) {
+    list.add(StartOp::RangeLow, kIdentityStep, optional({object::kRangeLimit.index, 1}));
+    list.add(StartOp::RangeHigh, kIdentityStep, optional({object::kRangeLimit.index, 2}));
+  }
+}
+
+void addConfiguration(List &list, const NodeConfig &config) {
+  std::vector<SdoWrite> writes = pdoWrites(config.plan);
+  const size_t pdos = writes.size();
+  writes.insert(writes.end(), config.parameters.begin(), config.parameters.end());
+  const ConfigurationStamp stamp = stampOf(writes);
+  const Object date = {object::kConfigurationDate, 1};
+  const Object time = {object::kConfigurationDate, 2};
+  list.add(StartOp::StampDate, kStampStep, optional(date, 4, stamp.date));
+  list.add(StartOp::StampTime, kStampStep, optional(time, 4, stamp.time));
+  const std::span<const SdoWrite> all = writes;
+  list.addWrites(all.first(pdos), kPdoSteps, kParameterSteps);
+  list.addWrites(all.subspan(pdos), kParameterSteps, kModeSteps);
+  list.add(StartOp::Write, kModeSteps - 1, optional(date, 4, stamp.date));
+  list.add(StartOp::Write, kModeSteps - 1, optional(time, 4, stamp.time));
+}
+
+void addModes(List &list, const NodeConfig &config) {
+  if (config.drive.homesItself)
+    list.add(StartOp::HomeOffset, kModeSteps, optional(object::kHomeOffset));
+  const Period period = periodOf(config.cycle);
+  constexpr uint16_t kPeriod = object::kInterpolationPeriod;
+  list.add(StartOp::Write, kModeSteps, optional({kPeriod, 1}, 1, period.mantissa));
+  list.add(StartOp::Write, kModeSteps,
+           optional({kPeriod, 2}, 1, static_cast<uint8_t>(period.exponent)));
+  // Velocities go ahead of positions (60B1h), and are the whole velocity in velocity mode.
+  if (config.plan.carries(Signal::VelocityOffset))
+    list.add(StartOp::Write, kModeSteps, optional(object::kTargetVelocity, 4, 0));
+  list.add(StartOp::WriteMode, kModeSteps, {object::kMode, 1});
+  list.add(StartOp::ReadMode, kModeSteps, {object::kModeDisplay});
+}
+
+void addSupervision(List &list, const NodeConfig &config) {
+  const uint32_t consumed = milliseconds(1.5 * config.heartbeat);
+  list.add(
+      StartOp::WriteConsumer, kSupervisionSteps,
+      optional({object::kConsumerHeartbeat, 1}, 4, uint32_t{config.masterNode} << 16U | consumed));
+  if (config.guard > 0) {
+    list.add(StartOp::Write, kSupervisionSteps,
+             {{object::kGuardTime, 0}, 2, milliseconds(config.guard)});
+    list.add(StartOp::Write, kSupervisionSteps, {{object::kLifeTimeFactor, 0}, 1, 3});
+  } else {
+    list.add(StartOp::Write, kSupervisionSteps,
+             optional({object::kProducerHeartbeat, 0}, 2, milliseconds(config.heartbeat)));
+  }
+  list.add(StartOp::Supervise, kSupervisionSteps);
+}
+
+void addSync(List &list, const NodeConfig &config) {
+  constexpr uint32_t kProduces = 0x40000000;
+  const auto period = static_cast<uint32_t>(config.cycle * 1e6 + 0.5);
+  list.add(StartOp::Write, kSyncSteps, {{object::kSyncPeriod, 0}, 4, period});
+  list.add(StartOp::Write, kSyncSteps, {{object::kSyncId, 0}, 4, kProduces | kSyncCobId});
+}
+
+} // namespace
+
+bool isExactPeriod(double seconds) { return periodOf(seconds).exact; }
+
+std::vector<StartStep> startSteps(const NodeConfig &config) {
+  List list;
+  const bool drive = config.kind == NodeConfig::Kind::Drive;
+  list.add(StartOp::Reset, kResetting);
+  if (config.reset != NodeConfig::Reset::None)
+    list.add(StartOp::BootUp, kResetting);
+  if (drive) {
+    addChecks(list, config);
+    addConfiguration(list, config);
+    addModes(list, config);
+    addSupervision(list, config);
+  }
+  list.add(StartOp::Start, kStartStep);
+  if (drive)
+    list.add(StartOp::Operational, kStartStep);
+  if (config.producesSync)
+    addSync(list, config);
+  if (drive)
+    list.add(StartOp::FirstPdo, kPdoStep);
+  return list.take();
+}
+
+} // namespace stride::can

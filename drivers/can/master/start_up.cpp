@@ -1,0 +1,359 @@
+#include "drivers/can/master/start_up.hpp"
+
+#include "drivers/can/master/frames.hpp"
+#include "drivers/can/master/texts.hpp"
+
+#include <algorithm>
+
+namespace stride::can {
+namespace {
+
+constexpr double kPatience = 2;             // s
+constexpr uint8_t kAfterConfiguration = 60; // the progress of what comes then
+constexpr uint32_t kCia402 = 0x0192;
+
+/// How a step is made.
+enum class Manner : uint8_t {
+  Act,   ///< At once, or by waiting for something.
+  Read,  ///< An object of the node.
+  Write, ///< The same.
+};
+struct OpRow {
+  StartOp op;
+  Manner manner;
+};
+constexpr std::array<OpRow, 21> kOps = {{
+    {StartOp::Reset, Manner::Act},           {StartOp::BootUp, Manner::Act},
+    {StartOp::DeviceType, Manner::Read},     {StartOp::Identity, Manner::Read},
+    {StartOp::SupportedModes, Manner::Read}, {StartOp::RatedTorque, Manner::Read},
+    {StartOp::RatedCurrent, Manner::Read},   {StartOp::HomeOffset, Manner::Read},
+    {StartOp::RangeLow, Manner::Read},       {StartOp::RangeHigh, Manner::Read},
+    {StartOp::StampDate, Manner::Read},      {StartOp::StampTime, Manner::Read},
+    {StartOp::NoRemote, Manner::Read},       {StartOp::Write, Manner::Write},
+    {StartOp::WriteConsumer, Manner::Write}, {StartOp::WriteMode, Manner::Write},
+    {StartOp::ReadMode, Manner::Read},       {StartOp::Supervise, Manner::Act},
+    {StartOp::Start, Manner::Act},           {StartOp::Operational, Manner::Act},
+    {StartOp::FirstPdo, Manner::Act},
+}};
+constexpr bool opsAreInOrder() {
+  for (size_t i = 0; i < kOps.size(); ++i)
+    if (kOps[i].op != static_cast<StartOp>(i))
+      return false;
+  return true;
+}
+static_assert(opsAreInOrder());
+
+Manner mannerOf(StartOp op) { return kOps[static_cast<size_t>(op)].manner; }
+
+/// For each NodeConfig::Reset: PDOs cannot be configured in operation.
+constexpr std::array<NmtCommand, 3> kResets = {NmtCommand::ResetCommunication,
+                                               NmtCommand::ResetNode, NmtCommand::PreOperational};
+
+uint32_t numberOf(std::span<const uint8_t> bytes) {
+  uint32_t value = 0;
+  for (size_t i = 0; i < bytes.size(); ++i)
+    value |= uint32_t{bytes[i]} << 8 * i;
+  return value;
+}
+
+} // namespace
+
+StartUp::StartUp(const NodeConfig &config)
+    : steps_(startSteps(config)), patience_(cyclesOf(kPatience, config.cycle)),
+      node_(config.plan.node) {}
+
+void StartUp::begin() {
+  go(0);
+  bootUps_ = 0;
+  noRemote_ = 0;
+  stampFits_ = false;
+  lacksConsumer_ = false;
+  lacksHeartbeat_ = false;
+}
+
+void StartUp::go(size_t place) {
+  place_ = place;
+  waited_ = 0;
+  asked_ = false;
+}
+
+uint8_t StartUp::progress() const {
+  return place_ < steps_.size() ? steps_[place_].progress : steps_.back().progress;
+}
+
+bus::StartUp StartUp::step(const StartParts &parts, bus::Message &message) {
+  if (place_ >= steps_.size())
+    return bus::StartUp::Started;
+  if (disturbed(parts, message))
+    return bus::StartUp::Failed;
+  ++waited_;
+  Outcome outcome = Outcome::Busy;
+  if (mannerOf(now().op) == Manner::Act)
+    outcome = act(parts, message);
+  else
+    outcome = asked_ ? answered(parts, message) : ask(parts, message);
+  if (outcome == Outcome::Failed)
+    return bus::StartUp::Failed;
+  if (outcome == Outcome::Next)
+    go(place_ + 1);
+  return place_ >= steps_.size() ? bus::StartUp::Started : bus::StartUp::Busy;
+}
+
+/// Two nodes have one number, or the node has restarted meanwhile.
+bool StartUp::disturbed(const StartParts &parts, bus::Message &message) {
+  const uint32_t bootUps = parts.supervision.bootUps();
+  if (bootUps > bootUps_) {
+    if (bootUps > 1) {
+      message.set("node ", uint32_t{node_},
+                  " has booted twice: duplicate node id, or it restarts by itself");
+      return true;
+    }
+    bootUps_ = bootUps;
+    const bool awaited = now().op == StartOp::Reset || now().op == StartOp::BootUp;
+    const auto first = std::find_if(steps_.begin(), steps_.end(), [](const StartStep &step) {
+      return step.op != StartOp::Reset && step.op != StartOp::BootUp;
+    });
+    if (!awaited) { // it has come late, and knows nothing of what it has been told
+      parts.sdo.clear();
+      go(static_cast<size_t>(first - steps_.begin()));
+    }
+  }
+  if (parts.sdo.unasked() == 0)
+    return false;
+  message.set("node ", uint32_t{node_}, " answers what nobody has asked: duplicate node id?");
+  return true;
+}
+
+StartUp::Outcome StartUp::await(bool there, std::string_view text, bus::Message &message) {
+  if (there)
+    return Outcome::Next;
+  if (waited_ < patience_)
+    return Outcome::Busy;
+  message.set("node ", uint32_t{node_}, text);
+  return Outcome::Failed;
+}
+
+StartUp::Outcome StartUp::act(const StartParts &parts, bus::Message &message) {
+  switch (now().op) {
+  case StartOp::Reset:
+    parts.supervision.clear();
+    parts.sdo.clear();
+    parts.nmt = kResets[static_cast<size_t>(parts.config.reset)];
+    return Outcome::Next;
+  case StartOp::BootUp:
+    return awaitBootUp(parts);
+  case StartOp::Supervise:
+    supervise(parts);
+    return Outcome::Next;
+  case StartOp::Start:
+    parts.nmt = NmtCommand::Start;
+    return Outcome::Next;
+  case StartOp::Operational:
+    return await(parts.supervision.kind() == Supervision::Kind::None ||
+                     parts.supervision.state() == nmt::kOperational,
+                 " does not become operational", message);
+  default: // FirstPdo
+    return await(parts.pdosArrived, " sends no PDO", message);
+  }
+}
+
+/// Without its message the node may have been there for long: it is asked.
+StartUp::Outcome StartUp::awaitBootUp(const StartParts &parts) {
+  return parts.supervision.bootUps() > 0 || waited_ >= patience_ ? Outcome::Next : Outcome::Busy;
+}
+
+void StartUp::supervise(const StartParts &parts) const {
+  const NodeConfig &config = parts.config;
+  if (config.guard > 0)
+    parts.supervision.begin(Supervision::Kind::Guarding, cyclesOf(config.guard, config.cycle));
+  else if (!lacksHeartbeat_)
+    parts.supervision.begin(Supervision::Kind::Heartbeat, cyclesOf(config.heartbeat, config.cycle));
+}
+
+uint32_t StartUp::valueOf(const SdoWrite &write, const DriveFacts &facts) const {
+  constexpr uint32_t kTarget = 0x607A0020;
+  constexpr uint32_t kInterpolated = 0x60C10120;
+  const bool maps = write.object.index >= object::kRpdoMapping &&
+                    write.object.index < object::kRpdoMapping + DrivePlan::kMostPdos;
+  if (maps && write.value == kTarget && write.object.sub != 0 &&
+      modeFor(kPositionControl, facts.supportedModes) == mode::kInterpolatedPosition)
+    return kInterpolated;
+  return write.keepNoRemote ? write.value | noRemote_ : write.value;
+}
+
+/// The first of the modes that set values and drive allow.
+bool StartUp::chooseMode(const StartParts &parts, bus::Message &message) {
+  const NodeConfig &config = parts.config;
+  const bool torque = config.drive.torqueRated > 0 || parts.facts.ratedTorque > 0;
+  for (const uint8_t one : {kPositionControl, kVelocityControl, kTorqueControl}) {
+    const int8_t mode = modeFor(one, parts.facts.supportedModes);
+    if ((config.plan.controllerModes >> one & 1U) == 0 || mode == mode::kNone ||
+        (one == kTorqueControl && !torque))
+      continue;
+    parts.facts.mode = mode;
+    return true;
+  }
+  message.set("node ", uint32_t{node_}, " has no mode of operation for its set values (",
+              ObjectText(object::kSupportedModes), " = ", HexText(parts.facts.supportedModes, 8),
+              ")");
+  if (!torque && (config.plan.controllerModes >> kTorqueControl & 1U) != 0)
+    message.append(", or torque_rated is missing");
+  return false;
+}
+
+StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
+  const SdoWrite &object = now().object;
+  if (mannerOf(now().op) == Manner::Read) {
+    asked_ = parts.sdo.upload(object.object, bytes_);
+    return Outcome::Busy;
+  }
+  uint32_t value = valueOf(object, parts.facts);
+  if (now().op == StartOp::WriteMode) {
+    if (!chooseMode(parts, message))
+      return Outcome::Failed;
+    value = static_cast<uint8_t>(parts.facts.mode);
+  }
+  for (size_t i = 0; i < bytes_.size(); ++i)
+    bytes_[i] = static_cast<uint8_t>(value >> 8 * i);
+  const size_t size = std::clamp<size_t>(object.size, 1, bytes_.size());
+  asked_ = parts.sdo.download(object.object, std::span<const uint8_t>(bytes_).first(size));
+  return Outcome::Busy;
+}
+
+StartUp::Outcome StartUp::answered(const StartParts &parts, bus::Message &message) {
+  switch (parts.sdo.state()) {
+  case SdoClient::State::Busy:
+    return Outcome::Busy;
+  case SdoClient::State::Failed:
+    return refused(parts, message);
+  default:
+    break;
+  }
+  if (mannerOf(now().op) == Manner::Write)
+    return Outcome::Next;
+  return taken(parts, numberOf(std::span<const uint8_t>(bytes_).first(parts.sdo.size())), message);
+}
+
+StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message) {
+  const uint32_t code = parts.sdo.abortCode();
+  const SdoWrite &object = now().object;
+  if (object.optional && !parts.sdo.timedOut() && isMissing(code)) {
+    lacksConsumer_ = lacksConsumer_ || now().op == StartOp::WriteConsumer;
+    lacksHeartbeat_ = lacksHeartbeat_ || object.object == Object{object::kProducerHeartbeat, 0};
+    noRemote_ = now().op == StartOp::NoRemote ? 0 : noRemote_;
+    return Outcome::Next;
+  }
+  message.set("node ", uint32_t{node_});
+  if (parts.sdo.timedOut() && now().op == StartOp::DeviceType) {
+    message.append(" does not answer: is it on, with this number and bit rate?");
+    return Outcome::Failed;
+  }
+  message.append(", ");
+  message.append(ObjectText(object.object));
+  if (mannerOf(now().op) == Manner::Write) {
+    message.append(" := ");
+    message.append(HexText(valueOf(object, parts.facts)));
+  }
+  message.append(": ");
+  message.append(abortRow(code).text);
+  message.append(" (abort code ");
+  message.append(HexText(code, 8));
+  message.append(")");
+  return Outcome::Failed;
+}
+
+StartUp::Outcome StartUp::checkType(uint32_t value, bus::Message &message) const {
+  constexpr uint32_t kProfile = 0xFFFF;
+  if ((value & kProfile) == kCia402)
+    return Outcome::Next;
+  message.set("node ", uint32_t{node_}, " is no drive of CiA 402: its device type (",
+              ObjectText(object::kDeviceType), ") is ", HexText(value, 8), " and not 16#....0192");
+  return Outcome::Failed;
+}
+
+StartUp::Outcome StartUp::checkIdentity(uint32_t value, bus::Message &message) const {
+  const SdoWrite &expected = steps_[place_].object;
+  if (value == expected.value)
+    return Outcome::Next;
+  message.set("node ", uint32_t{node_}, " is another device: ", ObjectText(expected.object), " is ",
+              HexText(value, 8), ", expected ", HexText(expected.value, 8));
+  return Outcome::Failed;
+}
+
+/// Positions are counted beyond 32 bits by what goes round at 2^32.
+StartUp::Outcome StartUp::checkRange(uint32_t value, bus::Message &message) const {
+  constexpr uint32_t kLowest = 0x80000000;
+  constexpr uint32_t kHighest = 0x7FFFFFFF;
+  const bool whole = rangeLow_ == kLowest && value == kHighest;
+  if (whole || (rangeLow_ == 0 && value == 0))
+    return Outcome::Next;
+  message.set("node ", uint32_t{node_},
+              " limits the range of positions (16#607B: ", HexText(rangeLow_, 8), " to ",
+              HexText(value, 8), "): it must be off (both 0) or all 32 bits");
+  return Outcome::Failed;
+}
+
+StartUp::Outcome StartUp::awaitMode(const StartParts &parts, uint32_t value,
+                                    bus::Message &message) {
+  if (static_cast<int8_t>(value) == parts.facts.mode)
+    return Outcome::Next;
+  asked_ = false; // once more
+  if (waited_ < patience_)
+    return Outcome::Busy;
+  message.set("node ", uint32_t{node_}, " does not take mode of operation ",
+              static_cast<uint32_t>(parts.facts.mode), ": it shows ", HexText(value, 2));
+  return Outcome::Failed;
+}
+
+/// The configuration is there already.
+void StartUp::skipConfiguration() {
+  const auto next =
+      std::find_if(steps_.begin() + static_cast<ptrdiff_t>(place_), steps_.end(),
+                   [](const StartStep &step) { return step.progress >= kAfterConfiguration; });
+  go(static_cast<size_t>(next - steps_.begin()));
+}
+
+StartUp::Outcome StartUp::taken(const StartParts &parts, uint32_t value, bus::Message &message) {
+  DriveFacts &facts = parts.facts;
+  switch (now().op) {
+  case StartOp::DeviceType:
+    return checkType(value, message);
+  case StartOp::Identity:
+    return checkIdentity(value, message);
+  case StartOp::SupportedModes:
+    facts.supportedModes = value;
+    break;
+  case StartOp::RatedTorque:
+    facts.ratedTorque = value;
+    break;
+  case StartOp::RatedCurrent:
+    facts.ratedCurrent = value;
+    break;
+  case StartOp::HomeOffset:
+    facts.homeOffset = value;
+    break;
+  case StartOp::RangeLow:
+    rangeLow_ = value;
+    break;
+  case StartOp::RangeHigh:
+    return checkRange(value, message);
+  case StartOp::StampDate:
+    stampFits_ = value == now().object.value;
+    break;
+  case StartOp::StampTime:
+    if (!stampFits_ || value != now().object.value)
+      break;
+    skipConfiguration();
+    return Outcome::Busy;
+  case StartOp::NoRemote:
+    noRemote_ = value & kPdoNoRemote;
+    break;
+  case StartOp::ReadMode:
+    return awaitMode(parts, value, message);
+  default:
+    break;
+  }
+  return Outcome::Next;
+}
+
+} // namespace stride::can

@@ -1,0 +1,117 @@
+// How a node is brought into operation: a list of steps, one at a time, without ever waiting.
+#ifndef STRIDE_DRIVERS_CAN_MASTER_START_UP_HPP
+#define STRIDE_DRIVERS_CAN_MASTER_START_UP_HPP
+
+#include "drivers/can/master/node_config.hpp"
+#include "drivers/can/master/sdo_client.hpp"
+#include "drivers/can/master/supervision.hpp"
+#include "runtime/bus/axis_driver.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace stride::can {
+
+/// What a step does.
+enum class StartOp : uint8_t {
+  Reset,          ///< By NMT.
+  BootUp,         ///< Until its message comes, or so long that it must be there.
+  DeviceType,     ///< It must be a drive of CiA 402.
+  Identity,       ///< It must be what the configuration says.
+  SupportedModes, ///< …
+  RatedTorque,
+  RatedCurrent,
+  HomeOffset,
+  RangeLow, ///< Positions must go round at 2^32.
+  RangeHigh,
+  StampDate, ///< If the node has this configuration already, it is left out.
+  StampTime,
+  NoRemote, ///< Bit 30 of a TPDO stays as it is.
+  Write,
+  WriteConsumer, ///< The node watches the master's heartbeat.
+  WriteMode,
+  ReadMode, ///< Until it is there.
+  Supervise,
+  Start, ///< By NMT.
+  Operational,
+  FirstPdo,
+};
+
+struct StartStep {
+  StartOp op = StartOp::Reset;
+  uint8_t progress = 0; ///< 0 … 99, AXIS_REF.wCommunicationState.
+  SdoWrite object;      ///< What is read or written; Identity: `value` is expected.
+};
+
+/// The steps of a node.
+std::vector<StartStep> startSteps(const NodeConfig &config);
+
+/// Whether 60C2h can say that time: as up to 255 times a power of ten. Else it says the nearest.
+bool isExactPeriod(double seconds);
+
+/// What the steps work on.
+struct StartParts {
+  const NodeConfig &config;
+  SdoClient &sdo;
+  Supervision &supervision;
+  DriveFacts &facts;
+  NmtCommand &nmt;  ///< To be sent; None again when it has been.
+  bool pdosArrived; ///< Since the node is operational.
+};
+
+class StartUp {
+public:
+  explicit StartUp(const NodeConfig &config);
+
+  /// From the beginning.
+  void begin();
+  /// One cycle. Failed: `message` says why.
+  bus::StartUp step(const StartParts &parts, bus::Message &message);
+
+  [[nodiscard]] uint8_t progress() const;
+  /// It has no 1016h, no 1017h.
+  [[nodiscard]] bool lacksConsumer() const { return lacksConsumer_; }
+  [[nodiscard]] bool lacksHeartbeat() const { return lacksHeartbeat_; }
+  [[nodiscard]] const std::vector<StartStep> &steps() const { return steps_; }
+
+private:
+  enum class Outcome : uint8_t { Busy, Next, Failed };
+
+  Outcome act(const StartParts &parts, bus::Message &message);
+  Outcome ask(const StartParts &parts, bus::Message &message);
+  Outcome answered(const StartParts &parts, bus::Message &message);
+  Outcome refused(const StartParts &parts, bus::Message &message);
+  Outcome taken(const StartParts &parts, uint32_t value, bus::Message &message);
+  Outcome awaitBootUp(const StartParts &parts);
+  Outcome awaitMode(const StartParts &parts, uint32_t value, bus::Message &message);
+  Outcome checkType(uint32_t value, bus::Message &message) const;
+  Outcome checkIdentity(uint32_t value, bus::Message &message) const;
+  Outcome checkRange(uint32_t value, bus::Message &message) const;
+  Outcome await(bool there, std::string_view text, bus::Message &message);
+  bool chooseMode(const StartParts &parts, bus::Message &message);
+  void supervise(const StartParts &parts) const;
+  bool disturbed(const StartParts &parts, bus::Message &message);
+  void go(size_t place);
+  void skipConfiguration();
+  [[nodiscard]] uint32_t valueOf(const SdoWrite &write, const DriveFacts &facts) const;
+  [[nodiscard]] const StartStep &now() const { return steps_[place_]; }
+
+  std::vector<StartStep> steps_;
+  std::array<uint8_t, 4> bytes_{};
+  size_t place_ = 0;
+  uint32_t waited_ = 0;   ///< In this step. [cycles]
+  uint32_t patience_;     ///< For boot-up, modes and states. [cycles]
+  uint32_t bootUps_ = 0;  ///< That have been taken notice of.
+  uint32_t noRemote_ = 0; ///< Bit 30 of the TPDO that is being configured.
+  uint32_t rangeLow_ = 0;
+  uint8_t node_;
+  bool asked_ = false; ///< The question of this step is under way.
+  bool stampFits_ = false;
+  bool lacksConsumer_ = false;
+  bool lacksHeartbeat_ = false;
+};
+
+} // namespace stride::can
+
+#endif

@@ -1,0 +1,118 @@
+#include "drivers/can/plan/group_plan.hpp"
+
+#include <algorithm>
+
+namespace stride::can {
+namespace {
+
+constexpr uint32_t kUsualBitRate = 1000;
+constexpr double kLongestCycle = 4e9; // µs
+
+/// What a drive of that section exchanges in every cycle.
+DriveWish driveWish(uint32_t node, const bus::SetupParameters &given) {
+  DriveWish wish;
+  wish.node = node <= kLastNode ? static_cast<uint8_t>(node) : uint8_t{0};
+  wish.controlType = static_cast<uint8_t>(given.number("wControlType"));
+  for (size_t i = 0; i < wish.send.size(); ++i) {
+    const std::string place = std::to_string(i + 1);
+    wish.send[i] = static_cast<uint16_t>(given.number("wCyclicDataS" + place));
+    wish.receive[i] = static_cast<uint16_t>(given.number("wCyclicDataR" + place));
+  }
+  wish.modeInPdo = given.flag("mode_pdo");
+  wish.eventPdos = given.flag("event_pdos");
+  wish.inputs = given.flag("inputs");
+  wish.probeInputs = static_cast<uint8_t>(given.number("probe_inputs"));
+  return wish;
+}
+
+/// Why a drive cannot be started at all.
+std::string faultOf(const PlanResult &plan, uint32_t id, const bus::GroupSetup &setup,
+                    bool hasSyncDevice) {
+  if (id == 0 || id > kLastNode)
+    return "wDriveId is its node id: 1 to 127";
+  const auto own = static_cast<uint32_t>(setup.busParameters.number("node_id"));
+  if (id == own)
+    return "its node id is the master's own (node_id)";
+  if (hasSyncDevice && id == kSyncDevice)
+    return "its node id is that of the SYNC device";
+  if (std::count_if(setup.drives.begin(), setup.drives.end(),
+                    [id](const bus::DriveSetup &drive) { return drive.id == id; }) > 1)
+    return "another drive has the same wDriveId";
+  for (const PlanNote note : plan.notes)
+    if (isError(note))
+      return std::string(describe(note));
+  return {};
+}
+
+/// A number of µs in ms: "1.5 ms".
+std::string milliseconds(uint32_t us) {
+  std::string text = std::to_string(us / 1000);
+  if (us % 1000 != 0) {
+    std::string part = std::to_string(us % 1000 + 1000).substr(1);
+    part.erase(part.find_last_not_of('0') + 1);
+    text += "." + part;
+  }
+  return text + " ms";
+}
+
+std::string percent(double share) {
+  const double tenths = std::min(share, 1e6) * 1000 + 0.5;
+  const auto whole = static_cast<uint64_t>(tenths);
+  return std::to_string(whole / 10) + "." + std::to_string(whole % 10) + " %";
+}
+
+void checkLoad(const GroupPlan &plan, bus::GroupFindings &findings) {
+  if (plan.load.comfortable() || plan.drives.empty())
+    return;
+  bus::GroupFinding finding;
+  finding.isError = !plan.load.fits();
+  finding.message = "the drives need " + percent(plan.load.share) +
+                    " of the bus: " + std::to_string(plan.load.bits) + " bits in each cycle of " +
+                    milliseconds(plan.cycle) + " at " + std::to_string(plan.bitRate) + " kBit/s";
+  finding.label =
+      finding.isError ? "does not fit" : "more than 80 %: parameters and emergencies wait";
+  finding.help = "take a cycle of " + milliseconds(plan.load.shortestCycle) +
+                 " or longer, a higher `BaudRate`, or part the drives between two buses; "
+                 "`stride can plan` shows what each of them needs";
+  findings.push_back(std::move(finding));
+}
+
+} // namespace
+
+GroupPlan planGroup(const bus::GroupSetup &setup) {
+  GroupPlan result;
+  result.sync =
+      static_cast<SyncProducer>(static_cast<int>(setup.parameters.number("SyncProducer")));
+  const auto rate = static_cast<uint32_t>(setup.parameters.number("BaudRate"));
+  result.bitRate = rate == 0 ? kUsualBitRate : rate;
+  result.cycle =
+      static_cast<uint32_t>(std::clamp(setup.cycleSeconds * 1e6 + 0.5, 1.0, kLongestCycle));
+  std::vector<DrivePlan> plans;
+  for (const bus::DriveSetup &drive : setup.drives) {
+    result.drives.push_back(planDrive(driveWish(drive.id, drive.parameters)));
+    result.faults.push_back(
+        faultOf(result.drives.back(), drive.id, setup, result.sync == SyncProducer::Device));
+    if (result.faults.back().empty())
+      plans.push_back(result.drives.back().plan);
+  }
+  result.load = busLoad(plans, result.bitRate, result.cycle);
+  return result;
+}
+
+void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
+  const GroupPlan plan = planGroup(setup);
+  for (size_t i = 0; i < plan.drives.size(); ++i) {
+    const std::string drive = "drive `" + setup.drives[i].name + "`";
+    if (!plan.faults[i].empty()) {
+      findings.push_back({true, i, drive + " cannot be on a CAN bus so: " + plan.faults[i],
+                          "cannot be served", ""});
+      continue;
+    }
+    for (const PlanNote note : plan.drives[i].notes)
+      findings.push_back(
+          {false, i, drive + ": " + std::string(describe(note)), "served without it", ""});
+  }
+  checkLoad(plan, findings);
+}
+
+} // namespace stride::can

@@ -1,0 +1,147 @@
+// Objects of the dictionary of a CANopen drive that the master knows by name. [CiA 301, CiA 402]
+#ifndef STRIDE_DRIVERS_CAN_PLAN_OBJECTS_HPP
+#define STRIDE_DRIVERS_CAN_PLAN_OBJECTS_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace stride::can {
+
+/// Where a value is in the dictionary.
+struct Object {
+  uint16_t index = 0;
+  uint8_t sub = 0;
+  friend constexpr bool operator==(const Object &, const Object &) = default;
+};
+
+namespace object {
+
+inline constexpr Object kDeviceType = {0x1000, 0};
+inline constexpr uint16_t kSyncId = 0x1005;
+inline constexpr uint16_t kSyncPeriod = 0x1006;
+inline constexpr uint16_t kGuardTime = 0x100C;
+inline constexpr uint16_t kLifeTimeFactor = 0x100D;
+inline constexpr uint16_t kConsumerHeartbeat = 0x1016;
+inline constexpr uint16_t kProducerHeartbeat = 0x1017;
+inline constexpr uint16_t kIdentity = 0x1018;
+inline constexpr uint16_t kConfigurationDate = 0x1020;
+inline constexpr uint16_t kRpdoCommunication = 0x1400;
+inline constexpr uint16_t kRpdoMapping = 0x1600;
+inline constexpr uint16_t kTpdoCommunication = 0x1800;
+inline constexpr uint16_t kTpdoMapping = 0x1A00;
+inline constexpr Object kErrorCode = {0x603F, 0};
+inline constexpr Object kMode = {0x6060, 0};
+inline constexpr Object kModeDisplay = {0x6061, 0};
+inline constexpr Object kTargetPosition = {0x607A, 0};
+inline constexpr Object kRangeLimit = {0x607B, 0};
+inline constexpr Object kHomeOffset = {0x607C, 0};
+inline constexpr Object kRatedCurrent = {0x6075, 0};
+inline constexpr Object kRatedTorque = {0x6076, 0};
+inline constexpr Object kInterpolatedPosition = {0x60C1, 1};
+inline constexpr uint16_t kInterpolationPeriod = 0x60C2;
+inline constexpr uint16_t kProbeValues = 0x60BA; ///< Four objects from here.
+inline constexpr Object kTargetVelocity = {0x60FF, 0};
+inline constexpr Object kSupportedModes = {0x6502, 0};
+
+} // namespace object
+
+/// What a drive is told and tells in PDOs.
+enum class Signal : uint8_t {
+  Controlword,
+  Mode,
+  TargetPosition,
+  VelocityOffset,
+  TargetVelocity,
+  TargetTorque,
+  ProbeFunction,
+  Statusword,
+  ModeDisplay,
+  Position,
+  Velocity,
+  Torque,
+  Current,
+  FollowingError,
+  ErrorCode,
+  Inputs,
+  ProbeStatus,
+  Probe1Rising, ///< The four latched positions follow one another.
+  Probe1Falling,
+  Probe2Rising,
+  Probe2Falling,
+  Other, ///< It means nothing to the master.
+};
+inline constexpr size_t kSignals = static_cast<size_t>(Signal::Other) + 1;
+
+/// The object that carries a signal.
+struct SignalObject {
+  Signal signal;
+  Object object;
+  uint8_t bits;
+  bool isSigned;
+};
+
+inline constexpr std::array<SignalObject, 21> kSignalObjects = {{
+    {Signal::Controlword, {0x6040, 0}, 16, false},
+    {Signal::Mode, {0x6060, 0}, 8, true},
+    {Signal::TargetPosition, {0x607A, 0}, 32, true},
+    {Signal::VelocityOffset, {0x60B1, 0}, 32, true},
+    {Signal::TargetVelocity, {0x60FF, 0}, 32, true},
+    {Signal::TargetTorque, {0x6071, 0}, 16, true},
+    {Signal::ProbeFunction, {0x60B8, 0}, 16, false},
+    {Signal::Statusword, {0x6041, 0}, 16, false},
+    {Signal::ModeDisplay, {0x6061, 0}, 8, true},
+    {Signal::Position, {0x6064, 0}, 32, true},
+    {Signal::Velocity, {0x606C, 0}, 32, true},
+    {Signal::Torque, {0x6077, 0}, 16, true},
+    {Signal::Current, {0x6078, 0}, 16, true},
+    {Signal::FollowingError, {0x60F4, 0}, 32, true},
+    {Signal::ErrorCode, {0x603F, 0}, 16, false},
+    {Signal::Inputs, {0x60FD, 0}, 32, false},
+    {Signal::ProbeStatus, {0x60B9, 0}, 16, false},
+    {Signal::Probe1Rising, {0x60BA, 0}, 32, true},
+    {Signal::Probe1Falling, {0x60BB, 0}, 32, true},
+    {Signal::Probe2Rising, {0x60BC, 0}, 32, true},
+    {Signal::Probe2Falling, {0x60BD, 0}, 32, true},
+}};
+
+/// The row of a signal; `signal` is not Other.
+constexpr const SignalObject &objectOf(Signal signal) {
+  return kSignalObjects[static_cast<size_t>(signal)];
+}
+
+/// What an object means to the master. An interpolated position is a target position, too.
+constexpr Signal signalOf(Object object) {
+  if (object == object::kInterpolatedPosition)
+    return Signal::TargetPosition;
+  for (const SignalObject &row : kSignalObjects)
+    if (row.object == object)
+      return row.signal;
+  return Signal::Other;
+}
+
+/// Bytes of an object that CiA 402 fixes, and whether it has a sign; bytes 0: not known here.
+struct ObjectForm {
+  uint8_t bytes = 0;
+  bool isSigned = false;
+};
+ObjectForm formOf(Object object);
+
+// Identifiers. [CiA 301, predefined connection set]
+inline constexpr uint16_t kNmtId = 0x000;
+inline constexpr uint16_t kSyncCobId = 0x080;
+inline constexpr uint16_t kEmcyBase = 0x080;
+inline constexpr uint16_t kTpdoBase = 0x180; ///< The next PDO 100h further.
+inline constexpr uint16_t kRpdoBase = 0x200; ///< The same.
+inline constexpr uint16_t kSdoAnswerBase = 0x580;
+inline constexpr uint16_t kSdoRequestBase = 0x600;
+inline constexpr uint16_t kHeartbeatBase = 0x700;
+inline constexpr uint8_t kLastNode = 127;
+
+/// Bit 31 of a PDO's COB-ID: it is not there; bit 30: nobody may ask for it.
+inline constexpr uint32_t kPdoInvalid = 0x80000000;
+inline constexpr uint32_t kPdoNoRemote = 0x40000000;
+
+} // namespace stride::can
+
+#endif

@@ -1,0 +1,274 @@
+#include "drivers/can/plan/pdo_plan.hpp"
+
+#include <algorithm>
+
+namespace stride::can {
+namespace {
+
+using cyclic::kCurrent;
+using cyclic::kPosition;
+using cyclic::kTorque;
+using cyclic::kVelocity;
+
+constexpr uint32_t kMostBits = 8 * Frame::kMostBytes;
+constexpr uint16_t kNextPdo = 0x100;
+/// PDOs by event come at least so often: a lost one is not lost for good. [ms]
+constexpr uint16_t kEventTimer = 100;
+
+/// What the values of wControlType mean.
+struct ControlRow {
+  uint8_t type;
+  uint8_t sent;
+  uint8_t received;
+};
+constexpr std::array<ControlRow, 6> kControlRows = {{
+    {1, kTorque, 0},
+    {2, kVelocity, kVelocity},
+    {3, kVelocity, kPosition},
+    {4, kPosition, kPosition},
+    {5, kPosition | kVelocity, kPosition | kVelocity},
+    {6, kVelocity, 0},
+}};
+
+/// What the values of wCyclicDataS1 … mean.
+struct DataRow {
+  uint16_t number;
+  uint8_t bit;
+};
+constexpr std::array<DataRow, 4> kSendRows = {
+    {{1100, kPosition}, {1110, kVelocity}, {1160, kTorque}, {1150, kCurrent}}};
+constexpr std::array<DataRow, 4> kReceiveRows = {
+    {{1101, kPosition}, {1111, kVelocity}, {1161, kTorque}, {1151, kCurrent}}};
+constexpr uint16_t kUserData = 65535;
+
+void note(std::vector<PlanNote> &notes, PlanNote one) {
+  if (std::find(notes.begin(), notes.end(), one) == notes.end())
+    notes.push_back(one);
+}
+
+uint8_t dataBits(std::span<const uint16_t> numbers, std::span<const DataRow> rows,
+                 std::vector<PlanNote> &notes) {
+  uint8_t bits = 0;
+  for (const uint16_t number : numbers) {
+    if (number == 0)
+      continue;
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const DataRow &one) { return one.number == number; });
+    if (row != rows.end())
+      bits = bits | row->bit;
+    else
+      note(notes, number == kUserData ? PlanNote::UserDataNotMapped : PlanNote::UnknownData);
+  }
+  return bits;
+}
+
+PdoEntry entry(Signal signal) {
+  const SignalObject &row = objectOf(signal);
+  return {row.object, row.bits};
+}
+
+uint32_t bitsOf(std::span<const PdoEntry> entries) {
+  uint32_t bits = 0;
+  for (const PdoEntry &one : entries)
+    bits += one.bits;
+  return bits;
+}
+
+/// The PDOs of one direction while they are filled.
+class Filler {
+public:
+  Filler(std::array<Pdo, DrivePlan::kMostPdos> &pdos, uint8_t &count, uint16_t base, uint8_t node,
+         bool transmits)
+      : pdos_(pdos), count_(count), base_(base), node_(node), transmits_(transmits) {}
+
+  /// Into a PDO of that kind with room for all of them, or into a new one.
+  void add(std::span<const PdoEntry> entries, uint8_t transmission) {
+    Pdo *place = nullptr;
+    for (uint8_t i = 0; i < count_ && place == nullptr; ++i)
+      if (pdos_[i].transmission == transmission && hasRoom(pdos_[i], entries))
+        place = &pdos_[i];
+    if (place == nullptr)
+      place = begin(transmission);
+    if (place == nullptr)
+      return;
+    for (const PdoEntry &one : entries)
+      place->entries[place->count++] = one;
+  }
+  void add(PdoEntry one, uint8_t transmission) { add({&one, 1}, transmission); }
+
+  [[nodiscard]] bool tooMany() const { return tooMany_; }
+
+private:
+  static bool hasRoom(const Pdo &pdo, std::span<const PdoEntry> entries) {
+    return pdo.bits() + bitsOf(entries) <= kMostBits &&
+           pdo.count + entries.size() <= Pdo::kMostEntries;
+  }
+  Pdo *begin(uint8_t transmission) {
+    if (count_ == DrivePlan::kMostPdos) {
+      tooMany_ = true;
+      return nullptr;
+    }
+    Pdo &pdo = pdos_[count_];
+    pdo.cobId = static_cast<uint16_t>(base_ + count_ * kNextPdo + node_);
+    pdo.number = ++count_;
+    pdo.transmission = transmission;
+    if (transmits_ && !pdo.synchronous())
+      pdo.eventTimer = kEventTimer;
+    return &pdo;
+  }
+
+  std::array<Pdo, DrivePlan::kMostPdos> &pdos_;
+  uint8_t &count_;
+  uint16_t base_;
+  uint8_t node_;
+  bool transmits_;
+  bool tooMany_ = false;
+};
+
+/// The words that every drive has, and the values of the cycle.
+struct Direction {
+  PdoEntry word; ///< Controlword or statusword …
+  PdoEntry mode; ///< … and its mode.
+  std::vector<PdoEntry> values;
+};
+
+void fill(Filler &filler, const Direction &direction, const DriveWish &wish) {
+  constexpr uint8_t kSync = 1;
+  const uint32_t modeBits = wish.modeInPdo ? direction.mode.bits : 0U;
+  const uint32_t valueBits = bitsOf(direction.values);
+  const bool together = direction.word.bits + modeBits + valueBits <= kMostBits;
+  if (together || !wish.eventPdos) {
+    filler.add(direction.word, kSync);
+    if (wish.modeInPdo)
+      filler.add(direction.mode, kSync);
+    for (const PdoEntry &one : direction.values)
+      filler.add(one, kSync);
+    return;
+  }
+  for (const PdoEntry &one : direction.values)
+    filler.add(one, kSync);
+  // The mode costs nothing there.
+  filler.add(direction.word, Pdo::kByEvent);
+  filler.add(direction.mode, Pdo::kByEvent);
+}
+
+std::vector<PdoEntry> setValues(uint8_t sent) {
+  std::vector<PdoEntry> values;
+  if ((sent & kPosition) != 0)
+    values.push_back(entry(Signal::TargetPosition));
+  // Beside a position, a velocity goes ahead of the position controller.
+  if ((sent & kVelocity) != 0)
+    values.push_back(
+        entry((sent & kPosition) != 0 ? Signal::VelocityOffset : Signal::TargetVelocity));
+  if ((sent & kTorque) != 0)
+    values.push_back(entry(Signal::TargetTorque));
+  return values;
+}
+
+std::vector<PdoEntry> actualValues(uint8_t received) {
+  std::vector<PdoEntry> values;
+  if ((received & kPosition) != 0)
+    values.push_back(entry(Signal::Position));
+  if ((received & kVelocity) != 0)
+    values.push_back(entry(Signal::Velocity));
+  if ((received & kTorque) != 0)
+    values.push_back(entry(Signal::Torque));
+  if ((received & kCurrent) != 0)
+    values.push_back(entry(Signal::Current));
+  return values;
+}
+
+uint8_t modesOf(uint8_t sent) {
+  uint8_t modes = 0;
+  if ((sent & kPosition) != 0)
+    modes = modes | 1U << kPositionControl;
+  if ((sent & kVelocity) != 0)
+    modes = modes | 1U << kVelocityControl;
+  if ((sent & kTorque) != 0)
+    modes = modes | 1U << kTorqueControl;
+  return modes;
+}
+
+/// What is seen now and then only.
+void fillExtras(Filler &rpdos, Filler &tpdos, const DriveWish &wish) {
+  const uint8_t kind = wish.eventPdos ? Pdo::kByEvent : uint8_t{1};
+  if (wish.inputs)
+    tpdos.add(entry(Signal::Inputs), kind);
+  if (wish.probeInputs == 0)
+    return;
+  rpdos.add(entry(Signal::ProbeFunction), kind);
+  std::vector<PdoEntry> status = {entry(Signal::ProbeStatus)};
+  // A latched position is valid in the frame that says so; further ones are asked for.
+  for (unsigned input = 0; input < 4; ++input)
+    if ((wish.probeInputs >> input & 1U) != 0 && status.size() == 1)
+      status.push_back(
+          entry(static_cast<Signal>(static_cast<unsigned>(Signal::Probe1Rising) + input)));
+  tpdos.add(status, kind);
+}
+
+} // namespace
+
+uint32_t Pdo::bits() const { return bitsOf(mapped()); }
+
+bool DrivePlan::carries(Signal signal) const {
+  const auto has = [signal](const Pdo &pdo) {
+    return std::any_of(pdo.mapped().begin(), pdo.mapped().end(),
+                       [signal](const PdoEntry &one) { return signalOf(one.object) == signal; });
+  };
+  return std::any_of(receivedByDrive().begin(), receivedByDrive().end(), has) ||
+         std::any_of(sentByDrive().begin(), sentByDrive().end(), has);
+}
+
+bool isError(PlanNote note) { return note >= PlanNote::UnknownControlType; }
+
+std::string_view describe(PlanNote note) {
+  static constexpr std::array<std::string_view, 6> kTexts = {
+      "set currents have no standard object on CAN: SetCurrent is not sent",
+      "user-defined cyclic data needs a PDO of its own: it is not sent",
+      "unknown cyclic data is not sent",
+      "unknown wControlType",
+      "no set value is sent to the drive: choose one in wCyclicDataS1",
+      "more than four PDOs in one direction",
+  };
+  return kTexts[static_cast<size_t>(note)];
+}
+
+bool PlanResult::usable() const { return std::none_of(notes.begin(), notes.end(), isError); }
+
+PlanResult planDrive(const DriveWish &wish) {
+  PlanResult result;
+  DrivePlan &plan = result.plan;
+  plan.node = wish.node;
+  if (wish.controlType == 0) {
+    plan.sent = dataBits(wish.send, kSendRows, result.notes);
+    plan.received = dataBits(wish.receive, kReceiveRows, result.notes);
+  } else {
+    const auto row =
+        std::find_if(kControlRows.begin(), kControlRows.end(),
+                     [&](const ControlRow &one) { return one.type == wish.controlType; });
+    if (row == kControlRows.end()) {
+      result.notes.push_back(PlanNote::UnknownControlType);
+      return result;
+    }
+    plan.sent = row->sent;
+    plan.received = row->received;
+  }
+  if ((plan.sent & kCurrent) != 0) {
+    note(result.notes, PlanNote::CurrentNotSent);
+    plan.sent = static_cast<uint8_t>(plan.sent & ~kCurrent);
+  }
+  plan.controllerModes = modesOf(plan.sent);
+  if (plan.sent == 0)
+    note(result.notes, PlanNote::NothingSent);
+  Filler rpdos(plan.rpdos, plan.rpdoCount, kRpdoBase, wish.node, false);
+  Filler tpdos(plan.tpdos, plan.tpdoCount, kTpdoBase, wish.node, true);
+  fill(rpdos, {entry(Signal::Controlword), entry(Signal::Mode), setValues(plan.sent)}, wish);
+  fill(tpdos, {entry(Signal::Statusword), entry(Signal::ModeDisplay), actualValues(plan.received)},
+       wish);
+  fillExtras(rpdos, tpdos, wish);
+  if (rpdos.tooMany() || tpdos.tooMany())
+    note(result.notes, PlanNote::TooMany);
+  return result;
+}
+
+} // namespace stride::can

@@ -1,0 +1,104 @@
+#include "drivers/can/plan/pdo_plan.hpp"
+
+namespace stride::can {
+namespace {
+
+/// The objects of PDO n, and how it is set.
+struct PdoObjects {
+  uint16_t communication;
+  uint16_t mapping;
+  uint16_t cobIdBase;
+  bool transmits;
+};
+constexpr PdoObjects kReceive = {object::kRpdoCommunication, object::kRpdoMapping, kRpdoBase,
+                                 false};
+constexpr PdoObjects kTransmit = {object::kTpdoCommunication, object::kTpdoMapping, kTpdoBase,
+                                  true};
+
+uint16_t indexOf(uint16_t first, size_t place) { return static_cast<uint16_t>(first + place); }
+
+uint32_t mappingValue(const PdoEntry &entry) {
+  return uint32_t{entry.object.index} << 16U | uint32_t{entry.object.sub} << 8U | entry.bits;
+}
+
+void configure(std::vector<SdoWrite> &writes, const PdoObjects &objects, const Pdo &pdo) {
+  const uint16_t communication = indexOf(objects.communication, pdo.number - 1U);
+  const uint16_t mapping = indexOf(objects.mapping, pdo.number - 1U);
+  writes.push_back({{communication, 1}, 4, pdo.cobId | kPdoInvalid, false, objects.transmits});
+  writes.push_back({{mapping, 0}, 1, 0});
+  for (uint8_t i = 0; i < pdo.count; ++i)
+    writes.push_back({{mapping, static_cast<uint8_t>(i + 1)}, 4, mappingValue(pdo.entries[i])});
+  writes.push_back({{mapping, 0}, 1, pdo.count});
+  writes.push_back({{communication, 2}, 1, pdo.transmission});
+  if (objects.transmits && pdo.inhibit != 0)
+    writes.push_back({{communication, 3}, 2, pdo.inhibit, true});
+  if (objects.transmits && !pdo.synchronous())
+    writes.push_back({{communication, 5}, 2, pdo.eventTimer, true});
+  writes.push_back({{communication, 1}, 4, pdo.cobId, false, objects.transmits});
+}
+
+void configureAll(std::vector<SdoWrite> &writes, const PdoObjects &objects,
+                  std::span<const Pdo> pdos, uint8_t node) {
+  for (size_t place = 0; place < DrivePlan::kMostPdos; ++place) {
+    if (place < pdos.size()) {
+      configure(writes, objects, pdos[place]);
+      continue;
+    }
+    const auto cobId = static_cast<uint32_t>(objects.cobIdBase + place * 0x100 + node);
+    writes.push_back({{indexOf(objects.communication, place), 1},
+                      4,
+                      cobId | kPdoInvalid,
+                      true,
+                      objects.transmits});
+  }
+}
+
+void append(std::vector<uint8_t> &bytes, uint32_t value, unsigned size) {
+  for (unsigned i = 0; i < size; ++i)
+    bytes.push_back(static_cast<uint8_t>(value >> 8U * i));
+}
+
+} // namespace
+
+std::vector<SdoWrite> pdoWrites(const DrivePlan &plan) {
+  std::vector<SdoWrite> writes;
+  configureAll(writes, kReceive, plan.receivedByDrive(), plan.node);
+  configureAll(writes, kTransmit, plan.sentByDrive(), plan.node);
+  return writes;
+}
+
+std::vector<uint8_t> conciseDcf(std::span<const SdoWrite> writes) {
+  std::vector<uint8_t> bytes;
+  uint32_t count = 0;
+  append(bytes, 0, 4);
+  for (const SdoWrite &write : writes) {
+    if (write.optional)
+      continue;
+    ++count;
+    append(bytes, write.object.index, 2);
+    append(bytes, write.object.sub, 1);
+    append(bytes, write.size, 4);
+    append(bytes, write.keepNoRemote ? write.value | kPdoNoRemote : write.value, write.size);
+  }
+  for (unsigned i = 0; i < 4; ++i)
+    bytes[i] = static_cast<uint8_t>(count >> 8U * i);
+  return bytes;
+}
+
+ConfigurationStamp stampOf(std::span<const SdoWrite> writes) {
+  // FNV-1a over all of them, also the optional ones.
+  uint64_t hash = 0xCBF29CE484222325;
+  const auto mix = [&hash](uint32_t value) {
+    for (unsigned i = 0; i < 4; ++i)
+      hash = (hash ^ (value >> 8U * i & 0xFFU)) * 0x100000001B3;
+  };
+  for (const SdoWrite &write : writes) {
+    mix(uint32_t{write.object.index} << 8U | write.object.sub);
+    mix(write.size);
+    mix(write.value);
+  }
+  constexpr uint32_t kDayMs = 86400000;
+  return {static_cast<uint32_t>(hash >> 48U) | 1U, static_cast<uint32_t>(hash % kDayMs)};
+}
+
+} // namespace stride::can

@@ -1,0 +1,141 @@
+// Interface type "CAN": CiA 402 drives on CANopen.
+#ifndef STRIDE_DRIVERS_CAN_SCHEMA_HPP
+#define STRIDE_DRIVERS_CAN_SCHEMA_HPP
+
+#include "drivers/dummy/physics_schema.hpp"
+#include "runtime/bus/driver_schema.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace stride::can {
+
+// power_off
+inline constexpr int64_t kDisableVoltage = 0;
+inline constexpr int64_t kShutdown = 1;
+// reset
+inline constexpr int64_t kResetCommunication = 0;
+inline constexpr int64_t kResetNode = 1;
+inline constexpr int64_t kResetNone = 2;
+// homing
+inline constexpr int64_t kHomesItself = 0;
+inline constexpr int64_t kHomedByController = 1;
+
+namespace rows {
+
+using common::Choice;
+using common::choice;
+using common::duration;
+using common::dword;
+using common::flag;
+using common::ParameterValues;
+using common::positive;
+using common::text;
+using common::whole;
+
+inline constexpr std::array<Choice, 2> kPowerOffs = {
+    {{"disable_voltage", kDisableVoltage}, {"shutdown", kShutdown}}};
+inline constexpr std::array<Choice, 3> kResets = {
+    {{"communication", kResetCommunication}, {"node", kResetNode}, {"none", kResetNone}}};
+inline constexpr std::array<Choice, 2> kHomings = {
+    {{"drive", kHomesItself}, {"controller", kHomedByController}}};
+
+constexpr double limitsAreUsed(const ParameterValues &values) {
+  return values.number("bHWLimitEnable");
+}
+
+inline constexpr std::array kBus = {
+    text("interface")
+        .says("the CAN interface of the system; default: `can` and the `ControllerNo` of the axis "
+              "group, `can0`"),
+    whole("node_id", 1, 127)
+        .defaultsTo(126)
+        .says("the master's own node id, which only its heartbeat has"),
+    duration("heartbeat")
+        .defaultsTo(0.1)
+        .says("period of the heartbeats of master and drives; whoever misses 1.5 of them knows "
+              "that the other one is gone"),
+    duration("sdo_timeout").defaultsTo(0.5).says("for each answer to an SDO"),
+};
+
+inline constexpr std::array kDrive = {
+    choice("reset", kResets)
+        .defaultsTo(kResetCommunication)
+        .says("what the drive is told by NMT when its start-up begins"),
+    duration("guard").says(
+        "node guarding with this period instead of a heartbeat, for drives without 1017h"),
+    choice("power_off", kPowerOffs)
+        .defaultsTo(kDisableVoltage)
+        .says("controlword of a drive that is off: 0000h, or 0006h, with which it stays ready"),
+    duration("power_timeout")
+        .defaultsTo(2)
+        .says("for a transition of the drive's state machine; after it the drive has error 1"),
+    duration("brake_release")
+        .defaultsTo(0)
+        .says("after operation is enabled, until set values are followed"),
+    duration("mode_timeout").defaultsTo(0.5).says("for a change of the mode of operation"),
+    flag("mode_pdo")
+        .defaultsTo(0)
+        .says("6060h and 6061h are in PDOs also where they take room in every cycle; else by SDO "
+              "there"),
+    flag("event_pdos")
+        .defaultsTo(1)
+        .says("controlword, statusword and inputs may have PDOs of their own, which are sent when "
+              "something changes"),
+    choice("homing", kHomings)
+        .defaultsTo(kHomesItself)
+        .says("who makes the reference run of `MC_Home`: the drive in its homing mode, or nobody, "
+              "as `SMC_Homing` does it"),
+    flag("inputs")
+        .defaultsTo(limitsAreUsed, "`bHWLimitEnable`")
+        .says("limit switches and home switch come from 60FDh"),
+    whole("inputs_inverted", 0, 7)
+        .defaultsTo(0)
+        .says("that are actuated when 60FDh shows 0: 1 negative limit, 2 positive limit, 4 home "
+              "switch, or their sum"),
+    whole("probe_inputs", 0, 15)
+        .defaultsTo(0)
+        .says("touch probes of the drive: 1 + 2 for both edges of the first, 4 + 8 of the second"),
+    positive("torque_rated", "Nm")
+        .says("what 100 % of 6071h and 6077h are; default: what the drive says in 6076h"),
+    positive("velocity_scale", "increments/s")
+        .defaultsTo(1)
+        .says("one unit of the drive's velocities (606Ch, 60FFh, 60B1h)"),
+    whole("pdo_timeout", 1, 1000, "cycles")
+        .defaultsTo(3)
+        .says("without a synchronous PDO until the drive counts as silent"),
+};
+
+inline constexpr std::array kIdentity = {
+    dword("vendor").defaultsTo(0).says("1018h:1, 0: any"),
+    dword("product").defaultsTo(0).says("1018h:2"),
+    dword("revision").defaultsTo(0).says("1018h:3"),
+    dword("serial").defaultsTo(0).says("1018h:4"),
+};
+
+inline constexpr std::array kDriveTables = {
+    common::ParameterTable{"identity", "the identity of a drive", kIdentity},
+    common::ParameterTable{"physics", "the physics of a simulated drive", dummy::physics::kDrive}};
+
+} // namespace rows
+
+/// See drivers/can/plan/group_plan.hpp.
+void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings);
+
+inline constexpr bus::DriverSchema kSchema = {
+    .name = "CAN",
+    .interfaceType = "CAN (SocketCAN)",
+    .driveData = {.type = "DummyDrive.DUMMY_DRIVE_SIM",
+                  .table = "physics",
+                  .suffix = "_Sim",
+                  .what = "simulation of drive"},
+    .givesSync = true,
+    .bus = rows::kBus,
+    .drive = rows::kDrive,
+    .driveTables = rows::kDriveTables,
+    .check = checkGroup,
+};
+
+} // namespace stride::can
+
+#endif

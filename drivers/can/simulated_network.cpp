@@ -1,0 +1,66 @@
+#include "drivers/can/simulated_network.hpp"
+
+#include "drivers/can/can_setup.hpp"
+
+namespace stride::can {
+namespace {
+
+simulation::BusSetup busSetup(const bus::GroupSetup &setup, const CanSetup &can) {
+  simulation::BusSetup result;
+  result.bitRate = can.bitRate * 1000;
+  result.cycleNs = static_cast<int64_t>(setup.cycleSeconds * 1e9 + 0.5);
+  return result;
+}
+
+/// A drive that is what stride.toml expects.
+simulation::Drive402Setup driveSetup(const bus::DriveSetup &drive) {
+  const bus::SetupParameters &given = drive.parameters;
+  const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
+  simulation::Drive402Setup result;
+  result.node.id = static_cast<uint8_t>(drive.id);
+  result.node.vendor = number("identity.vendor");
+  result.node.product = number("identity.product");
+  result.node.revision = number("identity.revision");
+  result.node.serial = number("identity.serial");
+  result.drive = dummy::driveParameters(given);
+  if (given.number("torque_rated") > 0)
+    result.ratedTorque = given.number("torque_rated");
+  result.velocityScale = given.number("velocity_scale");
+  return result;
+}
+
+} // namespace
+
+SimulatedNodes simulatedNodes(const bus::GroupSetup &setup) {
+  const CanSetup can = canSetup(setup);
+  SimulatedNodes nodes;
+  nodes.drives.resize(setup.drives.size());
+  for (size_t i = 0; i < setup.drives.size(); ++i)
+    if (can.faults[i].empty())
+      nodes.drives[i] =
+          std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup.drives[i]));
+  if (can.hasSyncDevice) {
+    simulation::NodeSetup node;
+    node.id = kSyncDevice;
+    node.name = "Stride simulated SYNC device";
+    nodes.syncDevice = std::make_unique<simulation::CanopenNode>(node, simulation::DeviceRows{});
+  }
+  return nodes;
+}
+
+SimulatedNetwork::SimulatedNetwork(const bus::GroupSetup &setup)
+    : bus_(busSetup(setup, canSetup(setup))), port_(bus_.port(bus_.addPort())),
+      nodes_(simulatedNodes(setup)) {
+  for (const auto &drive : nodes_.drives)
+    if (drive != nullptr)
+      bus_.attach(*drive);
+  if (nodes_.syncDevice != nullptr)
+    bus_.attach(*nodes_.syncDevice);
+}
+
+void SimulatedNetwork::bindData(size_t drive, void *data) {
+  if (nodes_.drives[drive] != nullptr)
+    nodes_.drives[drive]->bind(static_cast<simulation::DriveSim *>(data));
+}
+
+} // namespace stride::can

@@ -1,0 +1,64 @@
+// stride-can monitor
+
+#include "drivers/can/plan/group_plan.hpp"
+#include "drivers/can/socket/socket_can_port.hpp"
+#include "drivers/can/tool/bus_client.hpp"
+#include "drivers/can/tool/commands.hpp"
+#include "drivers/can/tool/frame_text.hpp"
+#include "drivers/can/tool/tool_support.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fmt/format.h>
+
+namespace stride::can::tool {
+namespace {
+
+std::vector<KnownDrive> knownDrives(const std::string &application) {
+  std::vector<KnownDrive> known;
+  if (application.empty())
+    return known;
+  for (const bus::GroupSetup &group : canGroups(application)) {
+    const GroupPlan plan = planGroup(group);
+    for (size_t i = 0; i < plan.drives.size(); ++i)
+      if (plan.faults[i].empty())
+        known.push_back({group.drives[i].name, plan.drives[i].plan});
+  }
+  return known;
+}
+
+} // namespace
+
+int monitor(const MonitorOptions &options) {
+  const std::vector<KnownDrive> drives = knownDrives(options.application);
+  SocketCanPort port(options.interface, 0);
+  if (!isUp(port, options.interface))
+    return kBad;
+  constexpr int64_t kTenthNs = 100000000;
+  const int64_t begin = monotonicNow();
+  const int64_t end =
+      options.seconds > 0 ? begin + static_cast<int64_t>(options.seconds * 1e9) : INT64_MAX;
+  std::array<Received, 32> frames;
+  int64_t first = -1;
+  for (uint64_t seen = 0; !interrupted() && monotonicNow() < end;) {
+    port.wait(std::min(end, monotonicNow() + kTenthNs));
+    port.beginCycle();
+    const size_t count = port.receive(frames);
+    for (size_t i = 0; i < count; ++i) {
+      if (first < 0)
+        first = frames[i].timeNs;
+      const std::string text = describe(frames[i].frame, drives);
+      fmt::print("{}  {}\n", line(frames[i].frame, std::max<int64_t>(frames[i].timeNs - first, 0)),
+                 text);
+      if (++seen == options.count)
+        return kGood;
+    }
+    std::fflush(stdout);
+  }
+  if (const PortCounters counters = port.counters(); counters.dropped != 0)
+    fmt::print(stderr, "warning: {} frames were lost here for want of room\n", counters.dropped);
+  return kGood;
+}
+
+} // namespace stride::can::tool

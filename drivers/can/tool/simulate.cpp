@@ -1,0 +1,71 @@
+// stride-can simulate
+
+#include "drivers/can/can_setup.hpp"
+#include "drivers/can/simulated_network.hpp"
+#include "drivers/can/socket/socket_can_port.hpp"
+#include "drivers/can/tool/bus_client.hpp"
+#include "drivers/can/tool/commands.hpp"
+#include "drivers/can/tool/node_server.hpp"
+#include "drivers/can/tool/tool_support.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace stride::can::tool {
+namespace {
+
+/// The group that is meant; null: it is said why there is none.
+const bus::GroupSetup *chosen(const std::vector<bus::GroupSetup> &groups,
+                              const SimulateOptions &options) {
+  std::string names;
+  for (const bus::GroupSetup &group : groups) {
+    if (options.group.empty() ? groups.size() == 1 : group.name == options.group)
+      return &group;
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", group.name);
+  }
+  if (groups.empty())
+    complain(fmt::format("'{}' has no axis group on CAN", options.application));
+  else if (options.group.empty())
+    complain(fmt::format("which group? add --group; on CAN are {}", names));
+  else
+    complain(fmt::format("there is no axis group '{}' on CAN; there are {}", options.group, names));
+  return nullptr;
+}
+
+} // namespace
+
+int simulate(const SimulateOptions &options) {
+  const std::vector<bus::GroupSetup> groups = canGroups(options.application);
+  const bus::GroupSetup *group = chosen(groups, options);
+  if (group == nullptr)
+    return kBad;
+  const CanSetup setup = canSetup(*group);
+  const std::string interface = options.interface.empty() ? setup.interface : options.interface;
+  SocketCanPort port(interface, setup.bitRate);
+  if (!isUp(port, interface))
+    return kBad;
+  SimulatedNodes nodes = simulatedNodes(*group);
+  std::vector<simulation::Node *> served;
+  for (const auto &drive : nodes.drives)
+    if (drive != nullptr)
+      served.push_back(drive.get());
+  if (nodes.syncDevice != nullptr)
+    served.push_back(nodes.syncDevice.get());
+  NodeServer server(port, served);
+  const int64_t begin = monotonicNow();
+  const int64_t end =
+      options.seconds > 0 ? begin + static_cast<int64_t>(options.seconds * 1e9) : INT64_MAX;
+  server.powerOn(begin);
+  fmt::print("{} nodes on {}\n", served.size(), interface);
+  std::fflush(stdout);
+  constexpr int64_t kTenthNs = 100000000;
+  while (!interrupted() && monotonicNow() < end) {
+    port.beginCycle();
+    server.serve(std::min(end, monotonicNow() + kTenthNs));
+  }
+  if (server.lost() != 0)
+    fmt::print(stderr, "warning: {} frames found no room in the interface\n", server.lost());
+  return kGood;
+}
+
+} // namespace stride::can::tool
