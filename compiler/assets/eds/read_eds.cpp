@@ -237,6 +237,7 @@ private:
       device_.note(0, fmt::format("there are more than {} objects: the others are left out",
                                   Device::kMostObjects));
     checkLists();
+    checkCounts();
     if (device_.objects.empty())
       device_.note(0, "the file has no object: is it an EDS?");
   }
@@ -267,6 +268,20 @@ private:
         device_.note(object.line, fmt::format("{:04X}h has a section, and is not listed: it counts",
                                               object.index));
       last = object.index;
+    }
+  }
+
+  /// PDOs that have places, and a count of 0 before them.
+  void checkCounts() {
+    for (const Pdo &pdo : pdosOf(device_)) {
+      const auto index = static_cast<uint16_t>((pdo.transmit ? 0x1A00 : 0x1600) + pdo.number - 1);
+      const Object *count = device_.find(index, 0);
+      if (!pdo.map.empty() && count != nullptr && count->value() != nullptr &&
+          count->value()->number == 0)
+        device_.note(count->line,
+                     fmt::format("{:04X}h maps 0 objects, and names {}: they are taken for its "
+                                 "mapping",
+                                 index, pdo.map.size()));
     }
   }
 

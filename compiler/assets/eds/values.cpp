@@ -174,6 +174,12 @@ std::optional<Value> readValue(std::string_view text, size_t line, const Object 
     return value;
   }
   std::optional<Value> value = valueOf(text);
+  if (const size_t remark = text.find(';'); !value && remark != std::string_view::npos) {
+    value = valueOf(text.substr(0, remark));
+    if (value)
+      device.note(line,
+                  fmt::format("{} of {}: what stands after ; is left out", what, nameOf(object)));
+  }
   if (!value) {
     device.note(line, fmt::format("{} of {}: \"{}\" is no {}: left out", what, nameOf(object), text,
                                   row->name));

@@ -142,7 +142,10 @@ PDOMapping=1
 
 TEST(Eds, AWholeDrive) {
   const Device device = readEds(kDrive);
-  EXPECT_THAT(device.notes, IsEmpty()) << device.notes.front().text;
+  ASSERT_EQ(device.notes.size(), 1U);
+  EXPECT_EQ(device.notes[0].text,
+            "1600h maps 0 objects, and names 2: they are taken for its mapping");
+  EXPECT_EQ(device.notes[0].line, 61U);
   EXPECT_EQ(device.identity.vendorName, "Acme");
   EXPECT_EQ(device.identity.vendor, 0x1ABU);
   EXPECT_EQ(device.identity.product, 4711U);
@@ -239,6 +242,8 @@ TEST(Eds, WhatIsStrangeIsNotedWithItsLine) {
             "5: PDOMapping of 1002h:0: \"maybe\" is taken for 0\n");
   EXPECT_EQ(notesOf("[1002]\nDataType=5\nDefaultValue=none\n"),
             "5: DefaultValue of 1002h:0: \"none\" is no UNSIGNED8: left out\n");
+  EXPECT_EQ(notesOf("[1002]\nDataType=5\nDefaultValue=0x3E ; why\n"),
+            "5: DefaultValue of 1002h:0: what stands after ; is left out\n");
   EXPECT_EQ(notesOf("[1002]\nDataType=5\nDefaultValue=256\n"),
             "5: DefaultValue of 1002h:0: 256 is more than UNSIGNED8 can be\n");
   EXPECT_EQ(notesOf("[1002]\nDataType=5\nLowLimit=7\nHighLimit=6\n"),

@@ -1,0 +1,137 @@
+// Start-up and motion of the driver with simulated drives.
+#include "tests/unit/can_together/together_scene.hpp"
+
+#include "drivers/dummy/dummy_drive.hpp"
+
+#include <cmath>
+#include <tuple>
+
+namespace stride::can {
+namespace {
+
+void addPhysics(bus::SetupParameters &drive, int model) {
+  drive.add({"physics.model", "", static_cast<double>(model)});
+  drive.add({"physics.time_constant", "", 0.004});
+  drive.add({"physics.inertia", "", 0.01});
+  drive.add({"physics.torque_limit", "", 8});
+  drive.add({"physics.coulomb_friction", "", 0.3});
+  drive.add({"physics.start_position", "", -1.5});
+}
+
+int32_t setPosition(int cycle) {
+  return -1500 + static_cast<int32_t>(std::lround(15'000 * (1 - std::cos(cycle * 0.012))));
+}
+
+/// wControlType, model.
+class CanTogether : public ::testing::TestWithParam<std::tuple<int, int>> {};
+
+TEST_P(CanTogether, EveryControlTypeStarts) {
+  const auto [type, model] = GetParam();
+  Together scene(0.002);
+  for (const uint32_t id : {3U, 9U})
+    addPhysics(scene.add(id, type), model);
+  scene.make();
+  for (int i = 0; i < 3000 && !scene.allStarted() && scene.failed.empty(); ++i)
+    scene.cycle();
+  EXPECT_EQ(scene.failed, "");
+  EXPECT_TRUE(scene.allStarted());
+  for (const bus::DriveStatus &status : {scene.driver->status(0), scene.driver->status(1)}) {
+    EXPECT_TRUE(status.communication);
+    EXPECT_FALSE(status.error);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, CanTogether,
+                         ::testing::Combine(::testing::Values(2, 3, 4, 5),
+                                            ::testing::Values(0, 2)));
+
+/// The same commands from the first cycle of regulation on: the same positions, two cycles later.
+TEST(CanTogetherMotion, IsThatOfDummyTwoCyclesLater) {
+  for (const int model : {0, 1, 2}) {
+    Together scene;
+    addPhysics(scene.add(5), model);
+    scene.make();
+    scene.run();
+
+    bus::GroupSetup group(dummy::kSchema, 0.001);
+    bus::SetupParameters &drive = group.addDrive("D5", 5).parameters;
+    drive.add({"dwRatioTechUnitsDenom", "", 1000});
+    addPhysics(drive, model);
+    dummy::DummyDriver other(group);
+    dummy::DriveSim sim{};
+    other.bindData(0, &sim);
+    bus::DriveCommand command;
+    command.position = static_cast<uint32_t>(-1500);
+    command.regulatorOn = command.driveStart = true;
+    uint16_t progress = 0;
+    bus::Message message;
+    for (int i = 0; i < 10; ++i) {
+      other.executeStart();
+      if (other.init(0, progress, message) == bus::StartUp::Started)
+        other.command(0, command);
+      other.executeEnd();
+    }
+    std::vector<uint32_t> expected;
+    for (int i = 0; i < 1200; ++i) {
+      other.executeStart();
+      expected.push_back(other.status(0).position);
+      command.position = static_cast<uint32_t>(setPosition(i));
+      other.command(0, command);
+      other.executeEnd();
+      uint32_t actual = 0;
+      scene.cycle([&] {
+        actual = scene.driver->status(0).position;
+        scene.commands[0].position = command.position;
+      });
+      if (i >= 2) {
+        ASSERT_EQ(actual, expected[static_cast<size_t>(i - 2)]) << model << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(CanTogetherMotion, AFaultIsReportedAndAcknowledged) {
+  Together scene;
+  scene.add(5);
+  scene.add(6);
+  scene.make();
+  scene.run();
+  scene.network->drive(0).raiseError(0x3210);
+  for (int i = 0; i < 10; ++i)
+    scene.cycle([&] {
+      if (scene.driver->status(0).error)
+        scene.commands[0].regulatorOn = scene.commands[0].driveStart = false;
+    });
+  EXPECT_TRUE(scene.driver->status(0).error);
+  EXPECT_EQ(scene.driver->status(0).errorId, 0x3210);
+  EXPECT_FALSE(scene.driver->status(0).regulatorOn);
+  EXPECT_FALSE(scene.driver->status(1).error) << "the other one goes on";
+  EXPECT_TRUE(scene.driver->status(1).driveStarted);
+  for (int i = 0; i < 40; ++i)
+    scene.cycle([&] { scene.commands[0].errorAckn = scene.driver->status(0).error; });
+  EXPECT_FALSE(scene.driver->status(0).error);
+  scene.commands[0].regulatorOn = scene.commands[0].driveStart = true;
+  for (int i = 0; i < 100; ++i)
+    scene.cycle();
+  EXPECT_TRUE(scene.driver->status(0).driveStarted);
+}
+
+TEST(CanTogetherMotion, ADriveThatIsResetIsLostUntilItIsStartedAgain) {
+  Together scene;
+  scene.add(5);
+  scene.make();
+  scene.run();
+  scene.network->drive(0).reset();
+  for (int i = 0; i < 60; ++i)
+    scene.cycle([&] {
+      if (!scene.driver->status(0).communication)
+        scene.commands[0].regulatorOn = scene.commands[0].driveStart = false;
+    });
+  EXPECT_FALSE(scene.driver->status(0).communication);
+  scene.driver->reset(0);
+  scene.started[0] = false;
+  scene.run();
+}
+
+} // namespace
+} // namespace stride::can
