@@ -26,7 +26,6 @@ namespace rows {
 using common::Choice;
 using common::choice;
 using common::duration;
-using common::dword;
 using common::flag;
 using common::ParameterValues;
 using common::positive;
@@ -107,10 +106,10 @@ inline constexpr std::array kDrive = {
 };
 
 inline constexpr std::array kIdentity = {
-    dword("vendor").defaultsTo(0).says("1018h:1, 0: any"),
-    dword("product").defaultsTo(0).says("1018h:2"),
-    dword("revision").defaultsTo(0).says("1018h:3"),
-    dword("serial").defaultsTo(0).says("1018h:4"),
+    whole("vendor", 0, common::kLargestDword).defaultsTo(0).says("1018h:1, 0: any"),
+    whole("product", 0, common::kLargestDword).defaultsTo(0).says("1018h:2"),
+    whole("revision", 0, common::kLargestDword).defaultsTo(0).says("1018h:3"),
+    whole("serial", 0, common::kLargestDword).defaultsTo(0).says("1018h:4"),
 };
 
 inline constexpr std::array kDriveTables = {

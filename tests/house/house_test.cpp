@@ -120,6 +120,9 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
        {"drivers/can/master", "drivers/can/simulation", "drivers/can/socket", "drivers/can/plan",
         "drivers/can/port", "drivers/dummy", "runtime/bus"}},
       {"drivers/can/socket", {"drivers/can/port"}},
+      {"drivers/can/tool",
+       {"drivers/can", "drivers/can/master", "drivers/can/simulation", "drivers/can/socket",
+        "drivers/can/plan", "drivers/can/port", "runtime/host", "runtime/app", "runtime/bus"}},
   };
   return kArrows;
 }
