@@ -20,8 +20,8 @@ namespace stride::can {
 class QuietHost final : public bus::DriverHost {
 public:
   void raise(bus::BusEvent /*event*/) noexcept override {}
-  void say(const bus::Message &news) noexcept override { said.emplace_back(news.text()); }
-  std::vector<std::string> said;
+  void say(const bus::Message & /*news*/) noexcept override { ++said; }
+  int said = 0;
 };
 
 /// Drives with 1000 increments per unit. What the runtime does around a driver is here as little as

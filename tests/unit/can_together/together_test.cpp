@@ -6,6 +6,10 @@
 #include <cmath>
 #include <tuple>
 
+namespace stride::test {
+size_t allocations();
+} // namespace stride::test
+
 namespace stride::can {
 namespace {
 
@@ -88,6 +92,30 @@ TEST(CanTogetherMotion, IsThatOfDummyTwoCyclesLater) {
       }
     }
   }
+}
+
+TEST(CanTogetherMotion, NoCycleTakesMemory) {
+  Together scene;
+  for (const uint32_t id : {5U, 6U})
+    addPhysics(scene.add(id), 2);
+  scene.make();
+  simulation::FaultRates rates;
+  rates.disturb = 20'000;
+  scene.network->bus().faults().set(rates);
+  const size_t before = test::allocations();
+  for (int i = 0; i < 2000; ++i)
+    scene.cycle([&] {
+      for (size_t k = 0; k < 2; ++k) {
+        bus::DriveCommand &command = scene.commands[k];
+        command.regulatorOn = command.driveStart = scene.started[k] && i % 700 != 0;
+        command.position = static_cast<uint32_t>(setPosition(i > 600 ? i - 600 : 0));
+      }
+      if (i == 1000)
+        scene.network->drive(1).raiseError(0x2310);
+    });
+  EXPECT_TRUE(scene.allStarted());
+  EXPECT_GT(scene.host.said, 0) << "the error is news";
+  EXPECT_EQ(test::allocations(), before);
 }
 
 TEST(CanTogetherMotion, AFaultIsReportedAndAcknowledged) {
