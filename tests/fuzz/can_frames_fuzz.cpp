@@ -60,7 +60,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   setup.addDrive("Y", 4).parameters.add({"probe_inputs", "", 15});
   auto owned = std::make_unique<BytesPort>(data, size);
   const BytesPort *port = owned.get();
-  const std::unique_ptr<stride::bus::AxisDriver> driver = makeDriver(setup, std::move(owned));
+  const std::unique_ptr<stride::bus::AxisDriver> driver =
+      std::make_unique<CanDriver>(setup, std::move(owned));
   stride::bus::DriveCommand command;
   command.homing = true;
   command.capture = 15;

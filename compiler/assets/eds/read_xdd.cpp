@@ -1,4 +1,5 @@
 #include "compiler/assets/eds/device.hpp"
+#include "compiler/assets/eds/ini.hpp"
 #include "compiler/assets/eds/values.hpp"
 #include "compiler/assets/eds/xml.hpp"
 
@@ -63,6 +64,8 @@ public:
       else
         readHead(tag, tags);
     }
+    if (tags.problem() != nullptr)
+      device_.note(tags.problemLine(), fmt::format("the XML ends here: {}", tags.problem()));
     finish();
     return std::move(device_);
   }
@@ -160,7 +163,7 @@ private:
     object.index = *index;
     object.sub = static_cast<uint8_t>(*sub);
     object.line = tag.line;
-    object.name = tag["name"];
+    object.name = inUtf8(tag["name"]);
     const auto found = parameters_.find(tag["uniqueIDRef"]);
     const Parameter parameter = found == parameters_.end() ? Parameter{} : found->second;
     object.type = static_cast<uint16_t>(hex(tag["dataType"]).value_or(parameter.type));

@@ -3,133 +3,87 @@
 #include "compiler/assets/eds/ini.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 namespace stc::eds {
 namespace {
-
-constexpr std::string_view kSpace = " \t\r\n";
 
 std::string_view withoutPrefix(std::string_view name) {
   const size_t colon = name.rfind(':');
   return colon == std::string_view::npos ? name : name.substr(colon + 1);
 }
 
-/// A character by its number, in UTF-8; only those that a name may need.
-std::string character(uint32_t number) {
-  if (number < 0x20 || number > 0xFFFF)
-    return "?";
-  if (number < 0x80)
-    return {static_cast<char>(number)};
-  if (number < 0x800)
-    return {static_cast<char>(0xC0U | number >> 6U), static_cast<char>(0x80U | (number & 0x3FU))};
-  return {static_cast<char>(0xE0U | number >> 12U),
-          static_cast<char>(0x80U | (number >> 6U & 0x3FU)),
-          static_cast<char>(0x80U | (number & 0x3FU))};
-}
+bool isElement(const pugi::xml_node &node) { return node.type() == pugi::node_element; }
 
-std::string resolved(std::string_view text) {
-  constexpr std::pair<std::string_view, char> kNames[] = {
-      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
-  std::string result;
-  while (!text.empty()) {
-    size_t taken = 0;
-    for (const auto &[name, sign] : kNames)
-      if (taken == 0 && text.starts_with(name)) {
-        result += sign;
-        taken = name.size();
-      }
-    const size_t end = text.starts_with("&#") ? text.find(';') : std::string_view::npos;
-    if (taken == 0 && end != std::string_view::npos) {
-      std::string_view digits = text.substr(2, end - 2);
-      const bool hex = digits.starts_with('x');
-      digits.remove_prefix(hex ? 1 : 0);
-      uint32_t number = 0;
-      std::from_chars(digits.data(), digits.data() + digits.size(), number, hex ? 16 : 10);
-      result += character(number);
-      taken = end + 1;
-    }
-    if (taken == 0) {
-      result += text.front();
-      taken = 1;
-    }
-    text.remove_prefix(taken);
-  }
-  return inUtf8(result);
+pugi::xml_node elementFrom(pugi::xml_node node) {
+  while (node && !isElement(node))
+    node = node.next_sibling();
+  return node;
 }
 
 } // namespace
 
 std::string_view XmlTag::operator[](std::string_view attribute) const {
-  const auto found = attributes.find(attribute);
-  return found == attributes.end() ? std::string_view() : std::string_view(found->second);
+  for (const pugi::xml_attribute one : node.attributes())
+    if (withoutPrefix(one.name()) == attribute)
+      return one.value();
+  return {};
 }
 
-void XmlTags::skip(size_t count) {
-  count = std::min(count, rest_.size());
-  line_ += static_cast<size_t>(
-      std::count(rest_.begin(), rest_.begin() + static_cast<ptrdiff_t>(count), '\n'));
-  rest_.remove_prefix(count);
+XmlTags::XmlTags(std::string_view text)
+    : text_(text), result_(document_.load_buffer(text_.data(), text_.size())) {
+  if (!result_)
+    problemLine_ =
+        1 + static_cast<size_t>(std::count(
+                text_.begin(),
+                text_.begin() +
+                    std::clamp<ptrdiff_t>(result_.offset, 0, static_cast<ptrdiff_t>(text_.size())),
+                '\n'));
 }
 
-void XmlTags::readAttributes(std::string_view inside, XmlTag &tag) {
-  while (!inside.empty()) {
-    inside.remove_prefix(std::min(inside.find_first_not_of(kSpace), inside.size()));
-    const size_t equals = inside.find('=');
-    if (equals == std::string_view::npos)
-      return;
-    std::string_view name = inside.substr(0, equals);
-    name = name.substr(0, name.find_last_not_of(kSpace) + 1);
-    inside.remove_prefix(equals + 1);
-    inside.remove_prefix(std::min(inside.find_first_not_of(kSpace), inside.size()));
-    if (inside.empty() || (inside.front() != '"' && inside.front() != '\''))
-      return;
-    const size_t end = inside.find(inside.front(), 1);
-    if (end == std::string_view::npos)
-      return;
-    tag.attributes.try_emplace(std::string(withoutPrefix(name)),
-                               resolved(inside.substr(1, end - 1)));
-    inside.remove_prefix(end + 1);
-  }
+const char *XmlTags::problem() const { return result_ ? nullptr : result_.description(); }
+
+/// Tags come in the order of the text.
+size_t XmlTags::lineAt(ptrdiff_t offset) {
+  const size_t end = std::clamp<size_t>(static_cast<size_t>(std::max<ptrdiff_t>(offset, 0)),
+                                        counted_, text_.size());
+  line_ += static_cast<size_t>(std::count(text_.begin() + static_cast<ptrdiff_t>(counted_),
+                                          text_.begin() + static_cast<ptrdiff_t>(end), '\n'));
+  counted_ = end;
+  return line_;
 }
 
 bool XmlTags::next(XmlTag &tag) {
-  for (;;) {
-    const size_t begin = rest_.find('<');
-    if (begin == std::string_view::npos)
-      return false;
-    skip(begin);
-    if (rest_.starts_with("<!--")) {
-      const size_t end = rest_.find("-->");
-      skip(end == std::string_view::npos ? rest_.size() : end + 3);
-      continue;
-    }
-    // The tag ends at the first > that is in no attribute.
-    size_t end = 1;
-    char quote = 0;
-    while (end < rest_.size() && (quote != 0 || rest_[end] != '>')) {
-      if (quote == rest_[end])
-        quote = 0;
-      else if (quote == 0 && (rest_[end] == '"' || rest_[end] == '\''))
-        quote = rest_[end];
-      ++end;
-    }
-    std::string_view inside = rest_.substr(1, end - 1);
-    tag = {};
-    tag.line = line_;
-    skip(end + 1);
-    if (inside.empty() || inside.front() == '?' || inside.front() == '!')
-      continue;
-    tag.opens = inside.front() != '/';
-    tag.closes = !tag.opens || inside.back() == '/';
-    inside.remove_prefix(tag.opens ? 0 : 1);
-    const size_t nameEnd = std::min(inside.find_first_of(" \t\r\n/"), inside.size());
-    tag.name = withoutPrefix(inside.substr(0, nameEnd));
-    readAttributes(inside.substr(nameEnd), tag);
-    return true;
+  pugi::xml_node node;
+  bool closing = false;
+  if (!begun_) {
+    node = elementFrom(document_.first_child());
+  } else if (last_.opens && !last_.closes) {
+    node = elementFrom(last_.node.first_child());
+    closing = !node;
+    node = closing ? last_.node : node;
+  } else if (last_.node) {
+    node = elementFrom(last_.node.next_sibling());
+    closing = !node && isElement(last_.node.parent());
+    node = closing ? last_.node.parent() : node;
   }
+  begun_ = true;
+  last_ = {};
+  if (!node)
+    return false;
+  last_.node = node;
+  last_.name = withoutPrefix(node.name());
+  last_.opens = !closing;
+  last_.closes = closing || !node.first_child();
+  last_.line = closing ? line_ : lineAt(node.offset_debug());
+  tag = last_;
+  return true;
 }
 
-std::string XmlTags::text() const { return resolved(trimmed(rest_.substr(0, rest_.find('<')))); }
+std::string XmlTags::text() const {
+  const pugi::xml_node text =
+      last_.opens && !last_.closes ? last_.node.first_child() : last_.node.next_sibling();
+  const bool isText = text.type() == pugi::node_pcdata || text.type() == pugi::node_cdata;
+  return isText ? inUtf8(trimmed(std::string_view(text.value()))) : std::string();
+}
 
 } // namespace stc::eds

@@ -2,40 +2,51 @@
 #ifndef STRIDE_COMPILER_ASSETS_EDS_XML_HPP
 #define STRIDE_COMPILER_ASSETS_EDS_XML_HPP
 
+#include <pugixml.hpp>
+
 #include <cstddef>
-#include <map>
 #include <string>
 #include <string_view>
 
 namespace stc::eds {
 
 struct XmlTag {
-  std::string name; ///< Without the prefix of its namespace.
+  std::string_view name; ///< Without the prefix of its namespace.
   bool opens = false;
-  bool closes = false; ///< Both: <one/>.
-  std::map<std::string, std::string, std::less<>> attributes;
+  bool closes = false; ///< Both: it has nothing in it.
   size_t line = 0;
 
+  /// The value of an attribute, of any namespace, as in the file; empty: there is none.
   [[nodiscard]] std::string_view operator[](std::string_view attribute) const;
+
+  pugi::xml_node node;
 };
 
-/// Whatever the text is, it comes to an end. References to characters are resolved, other entities
-/// stay as they are: none is ever expanded.
+/// Whatever the text is, it comes to an end: what stands before an error is read. Entities besides
+/// those of XML itself stay as they are: none is ever expanded.
 class XmlTags {
 public:
-  explicit XmlTags(std::string_view text) : rest_(text) {}
+  explicit XmlTags(std::string_view text);
 
   /// The next tag. FALSE: there is none.
   bool next(XmlTag &tag);
-  /// What stands between the last tag and the next one, without blanks around it.
+  /// What stands right after the last tag, without blanks around it.
   [[nodiscard]] std::string text() const;
+  /// What is wrong with the text, and in which line; null: nothing.
+  [[nodiscard]] const char *problem() const;
+  [[nodiscard]] size_t problemLine() const { return problemLine_; }
 
 private:
-  void skip(size_t count);
-  void readAttributes(std::string_view inside, XmlTag &tag);
+  size_t lineAt(ptrdiff_t offset);
 
-  std::string_view rest_;
+  std::string text_;
+  pugi::xml_document document_;
+  pugi::xml_parse_result result_;
+  XmlTag last_;
+  bool begun_ = false;
   size_t line_ = 1;
+  size_t counted_ = 0; ///< Up to here lines have been counted.
+  size_t problemLine_ = 0;
 };
 
 } // namespace stc::eds

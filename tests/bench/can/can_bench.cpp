@@ -73,7 +73,7 @@ struct Bus {
       for (can::test::ScriptedNode &node : nodes)
         node.hear(frame);
     };
-    driver = can::makeDriver(setup, std::move(owned));
+    driver = std::make_unique<can::CanDriver>(setup, std::move(owned));
   }
 
   /// Cycles until all drives have started.

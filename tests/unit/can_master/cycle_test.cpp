@@ -136,7 +136,8 @@ TEST_F(Life, TakesNoMemoryAndCanBeRepeated) {
 
   auto owned = std::make_unique<ReplayPort>(life);
   ReplayPort *replay = owned.get();
-  const std::unique_ptr<bus::AxisDriver> again = makeDriver(setup, std::move(owned));
+  const std::unique_ptr<bus::AxisDriver> again =
+      std::make_unique<CanDriver>(setup, std::move(owned));
   SilentHost silent;
   again->attach(silent);
   std::vector<bus::DriveCommand> same(2);

@@ -45,6 +45,7 @@ TEST(SocketCan, TheDriverSaysWhatIsWrong) {
   bus::GroupSetup setup(kSchema, 0.001);
   setup.busParameters.add({"interface", "nocan77", 0});
   setup.addDrive("X", 3);
+  setup.kind = bus::BusKind::Real;
   const std::unique_ptr<bus::AxisDriver> driver = makeDriver(setup);
   driver->executeStart();
   uint16_t progress = 0;

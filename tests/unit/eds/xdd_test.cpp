@@ -79,13 +79,22 @@ TEST(Xdd, AWholeDevice) {
 }
 
 TEST(Xdd, SomethingElseIsNoted) {
-  EXPECT_THAT(readXdd("hello <b>").notes.front().text, HasSubstr("no CANopenObject"));
+  EXPECT_THAT(readXdd("hello <b/>").notes.front().text, HasSubstr("no CANopenObject"));
+  EXPECT_THAT(readXdd("hello\n<b>").notes.front().text, HasSubstr("the XML ends here"));
+  EXPECT_EQ(readXdd("hello\n<b>").notes.front().line, 2U);
+  // Entities are not expanded, and what stands before an error counts.
+  EXPECT_EQ(
+      readXdd("<!DOCTYPE a [<!ENTITY x 'y'>]><a><vendorName>&x;</vendorName>").identity.vendorName,
+      "&x;");
   EXPECT_THAT(readXdd("").objects, IsEmpty());
 }
 
 TEST(Xml, TagsAndTheirParts) {
-  XmlTags tags("<a x='1' y=\"2>3\"/>text <!-- <no/> --><n:b  z = 'q' >&lt;&#65;&unknown;</n:b><c");
+  XmlTags tags(
+      "<a x='1' y=\"2>3\"/>text <!-- <no/> --><n:b  z = 'q' >&lt;&#65;&unknown;</n:b><c/></r>");
   XmlTag tag;
+  ASSERT_TRUE(tags.next(tag));
+  EXPECT_EQ(tag.name, "r");
   ASSERT_TRUE(tags.next(tag));
   EXPECT_EQ(tag.name, "a");
   EXPECT_TRUE(tag.opens && tag.closes);
@@ -101,6 +110,8 @@ TEST(Xml, TagsAndTheirParts) {
   EXPECT_TRUE(!tag.opens && tag.closes);
   ASSERT_TRUE(tags.next(tag));
   EXPECT_EQ(tag.name, "c");
+  ASSERT_TRUE(tags.next(tag));
+  EXPECT_TRUE(tag.name == "r" && tag.closes && !tag.opens);
   EXPECT_FALSE(tags.next(tag));
 }
 
