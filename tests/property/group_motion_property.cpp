@@ -28,7 +28,8 @@ public:
   Drive(unsigned seed, int rarely)
       : random_(seed), machine_(randomMachine(random_)), group_(std::make_unique<GroupMotion>()),
         cycle_(random_.magnitude(-3.3, -2.7)), arm_(machine_.arm()),
-        keep_(seed % 3 == 0 ? 0.03 * (seed % 8) : 0), atOnce_(seed % 2 == 0), rarely_(rarely) {
+        keep_(seed % 3 == 0 ? 0.03 * (seed % 8) : 0), atOnce_(seed % 2 == 0), rarely_(rarely),
+        stopJerk_(seed % 5 < 2 ? 1e12 : 0) {
     reset(*group_, machine_.home);
     std::copy(std::begin(machine_.home), std::end(machine_.home), planned_);
   }
@@ -139,6 +140,7 @@ private:
         cycle_, override_, stopped_ > 0, 0, std::max(1, static_cast<int>(cycle_ * 64000)), 64};
     command.keep = keep_;
     command.atOnce = atOnce_;
+    command.jerk = stopJerk_;
     plan(*group_, arm_, command);
     if (random_.chance(1.0 / rarely_))
       lookAtParts(command);
@@ -237,7 +239,8 @@ private:
     double speed = 0;
     double change = 0;
     measureTool(speed, change);
-    const double jerk = onLeg_ == movement ? std::fabs(change - change_) / t : 0;
+    const bool looks = onLeg_ == movement && stopJerk_ == 0;
+    const double jerk = looks ? std::fabs(change - change_) / t : 0;
     const bool good = speed <= limits.velocity * (1 + 1e-6) &&
                       change <= limits.acceleration * (1 + 1e-6) &&
                       -change <= limits.deceleration * (1 + 1e-6) &&
@@ -311,6 +314,7 @@ private:
   double keep_;
   bool atOnce_;
   int rarely_;
+  double stopJerk_; ///< What the axes allow, to stop with; 0: what movements allow.
   double planned_[kAxes];
   std::vector<Order> factors_;
   double override_ = 1;

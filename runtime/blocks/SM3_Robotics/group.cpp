@@ -131,7 +131,8 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) {
                                     group.fForecast,
                                     stopsAtOnce(group, state),
                                     state.rides != 0 ? stateOfCarrier(group, state.rides)
-                                                     : motion::State{}};
+                                                     : motion::State{},
+                                    state.jerk};
   group::plan(state.motion, arm.arm, command);
   state.forecast = group::plannedTime(state.motion);
   state.rest = {exact::kInfinity, 0};
@@ -266,15 +267,16 @@ int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
              : int16_t{0};
 }
 
-int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration) {
+int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration, double jerk) {
   bindTriggers(group, ctx.cycle + 1, 0, error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
   if (!takesMovements(group) && group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
-  if (!(deceleration >= 0.0))
+  if (!(deceleration >= 0.0) || !(jerk >= 0.0))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
   GroupState &state = stateOf(group);
   abortAll(state, true);
   state.deceleration = deceleration;
+  state.jerk = jerk;
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStopping;
   return 0;
 }

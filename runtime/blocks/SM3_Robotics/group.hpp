@@ -57,6 +57,7 @@ struct Request {
   double aux[kArmAxes]; ///< Circular: AuxPoint, like `position`. Jog: how far at most [u], [°].
   group::Order order;   ///< But for its configuration.
   double deceleration;  ///< Halt: see MC_GroupHalt. [u/s^2]
+  double jerk;          ///< Likewise. [u/s^3]
   bool forgets;         ///< Halt: what it aborts cannot be continued.
   Tool tool;            ///< When it was asked for.
   ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Likewise.
@@ -72,6 +73,7 @@ struct GroupState {
   int16_t error[group::kOutcomes]; ///< Why movements have failed, by id: SMC_ERROR.
   double end[kAxes];               ///< Axes where the movements end that have been taken. [u]
   double deceleration;             ///< Of the present stop. [u/s^2]
+  double jerk;                     ///< Likewise. [u/s^3]
   uint64_t lastAccepted;           ///< The movement that has been taken last.
   group::Pose endPose;             ///< Where these end, in the path's system, if that moves.
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
@@ -106,7 +108,7 @@ bool takesMovements(const GroupRef &group) noexcept;
 int16_t ask(Ctx &ctx, GroupRef &group, Request &request);
 
 /// Lets MC_GroupStop begin, and end.
-int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration);
+int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration, double jerk);
 void endStop(GroupRef &group);
 
 /// Lets the group go on by the present cycle, unless it has done so.

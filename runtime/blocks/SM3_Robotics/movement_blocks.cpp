@@ -93,6 +93,7 @@ void decl::MC_GroupHalt::body__(::stride::Ctx &ctx__) {
     request.kind = robotics::RequestKind::Halt;
     request.bufferMode = buffer::MC_BUFFER_MODE__Aborting;
     request.deceleration = Deceleration;
+    request.jerk = Jerk;
     request.forgets = ClearMovements != 0;
   });
   Active = Busy;
@@ -103,7 +104,7 @@ void decl::MC_GroupStop::body__(::stride::Ctx &ctx__) {
     robotics::serve(ctx__, *AxisGroup);
   if (robotics::rises(*this)) {
     const int16_t error = AxisGroup != nullptr
-                              ? robotics::beginStop(ctx__, *AxisGroup, Deceleration)
+                              ? robotics::beginStop(ctx__, *AxisGroup, Deceleration, Jerk)
                               : robotics::kNoGroup;
     robotics::setError(*this, error);
     stBlock.bRunning = error == 0;

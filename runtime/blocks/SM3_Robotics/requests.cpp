@@ -34,8 +34,9 @@ bool leadsTool(const Request &request) noexcept {
 /// What is wrong with the inputs of a movement: an SMC_ERROR.
 int16_t wrongInput(const Request &request) noexcept {
   if (request.kind == RequestKind::Halt)
-    return request.deceleration >= 0.0 ? int16_t{0}
-                                       : error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+    return request.deceleration >= 0.0 && request.jerk >= 0.0
+               ? int16_t{0}
+               : error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
   const group::Order &order = request.order;
   if (request.bufferMode < buffer::MC_BUFFER_MODE__Aborting ||
       request.bufferMode > buffer::MC_BUFFER_MODE__BlendingHigh)
@@ -319,6 +320,7 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
   if (aborts(request)) {
     abortAll(state, false);
     state.deceleration = request.deceleration;
+    state.jerk = request.jerk;
   }
   if (state.nextRequest - state.firstRequest == kRequests)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;

@@ -110,6 +110,8 @@ struct GroupCommand {
                       ///< is unless it is stopped at once. [s]
   bool atOnce = true; ///< To stop: do not care for `keep`.
   motion::State carrier{}; ///< Of the system that is followed, at the end of the cycle. [u] or [°]
+  double jerk = 0.0;       ///< To stop with, as far as the axes allow it, if it is more than the
+                           ///< movement's; in units of the way. [u/s^3]
 };
 
 /// Trivially copyable, may be moved in memory between two calls.

@@ -188,16 +188,17 @@ double jerkLeft(const Arm &arm, const Peaks &peaks, int32_t k, double velocity) 
   return arm.limits[k].jerk - velocity * velocity * velocity * peaks.d[3][k];
 }
 
-/// After the velocity: the jerk along the path.
+/// After the velocity: the jerk along the path, and what the axes would allow.
 void limitJerk(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
   const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
-  double jerk = strip.jerk;
+  double jerk = 1e30;
   for (int32_t k = 0; k < axisCount(arm); ++k)
     if (hasAxis(arm, k) && peaks.d[1][k] > 0.0)
       jerk = smaller(jerk, (peaks.bent[k] ? kChangeShare * jerkLeft(arm, peaks, k, velocity)
                                           : arm.limits[k].jerk) /
                                peaks.d[1][k]);
-  strip.jerk = static_cast<float>(jerk);
+  strip.spareJerk = static_cast<float>(jerk);
+  strip.jerk = static_cast<float>(smaller(jerk, static_cast<double>(strip.jerk)));
 }
 
 /// After all else: three times the second derivative times velocity times acceleration must not
@@ -228,7 +229,22 @@ void limitByPath(const Peaks &peaks, const PathLimits &path, path::Strip &strip)
 void limitRise(path::Strip &strip) noexcept {
   constexpr double kLeastRise = 0.0005; // [s]
   const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
-  strip.jerk = static_cast<float>(smaller(static_cast<double>(strip.jerk), most / kLeastRise));
+  const double rise = most / kLeastRise;
+  strip.jerk = static_cast<float>(smaller(static_cast<double>(strip.jerk), rise));
+  strip.spareJerk = static_cast<float>(smaller(static_cast<double>(strip.spareJerk), rise));
+}
+
+/// In bends a stop may ask for what accelerations leave there.
+void limitSpare(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
+  const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
+  const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
+  double spare = static_cast<double>(strip.spareJerk);
+  for (int32_t k = 0; k < axisCount(arm); ++k)
+    if (hasAxis(arm, k) && peaks.bent[k] && peaks.d[1][k] > 0.0)
+      spare = smaller(spare,
+                      (jerkLeft(arm, peaks, k, velocity) - 3.0 * peaks.d[2][k] * velocity * most) /
+                          peaks.d[1][k]);
+  strip.spareJerk = static_cast<float>(larger(spare, static_cast<double>(strip.jerk)));
 }
 
 void makeStrip(const Arm &arm, Peaks &peaks, const PathLimits &path, double length,
@@ -246,6 +262,7 @@ void makeStrip(const Arm &arm, Peaks &peaks, const PathLimits &path, double leng
   limitJerk(arm, peaks, strip);
   limitRise(strip);
   limitInBends(arm, peaks, strip);
+  limitSpare(arm, peaks, strip);
   strip.endFeed = strip.feed;
 }
 

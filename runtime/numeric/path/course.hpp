@@ -22,6 +22,7 @@ struct Strip {
   double along;        ///< Axes allow along * |a| + across * v^2 <= 1; 0: no limit. [s^2/u]
   double across;       ///< See `along`; times `ceiling` at most 0.95. [s^2/u^2]
   float jerk;          ///< Tangential, if that is less than the law's; 0: no limit. [u/s^3]
+  float spareJerk;     ///< Up to which a stop may ask for more than `jerk`. [u/s^3]
   bool stop;           ///< The motion rests at its end.
   bool gate;           ///< It goes on from there only when it is told to.
 };
@@ -52,9 +53,14 @@ inline double beginOf(const Course &course, int64_t number) noexcept {
 /// Way at the end of all of it. [u]
 inline double endOf(const Course &course) noexcept { return beginOf(course, course.next); }
 
-/// The greatest tangential jerk in a strip for a law with `most`. [u/s^3]
-inline double jerkIn(const Strip &strip, double most) noexcept {
-  return strip.jerk > 0.0F ? exact::smaller(static_cast<double>(strip.jerk), most) : most;
+/// The greatest tangential jerk in a strip for a law with `most`. `least`: for a stop, what it asks
+/// for whatever the strip says, as far as there is to spare. [u/s^3]
+inline double jerkIn(const Strip &strip, double most, double least = 0.0) noexcept {
+  if (!(strip.jerk > 0.0F))
+    return most;
+  const auto own = static_cast<double>(strip.jerk);
+  const double more = exact::smaller(least, static_cast<double>(strip.spareJerk));
+  return exact::smaller(exact::larger(own, more), most);
 }
 
 /// The greatest square of the velocity in a strip, and at its end. `override` is 1 for what the

@@ -24,7 +24,7 @@ constexpr int32_t kPause = 8;      ///< Calls after a plan that came to nothing.
 
 bool differs(const Wish &a, const Wish &b) noexcept {
   return a.override != b.override || a.limit != b.limit || a.deceleration != b.deceleration ||
-         a.stop != b.stop;
+         a.jerk != b.jerk || a.stop != b.stop;
 }
 
 /// Whether the law changes ahead to other settings.
@@ -78,7 +78,8 @@ double jerkAt(const Motion &motion, const WayState &state) noexcept {
       smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
   const double most = smaller(acceleration / kLeastRise, velocity / (kLeastRise * kLeastRise));
-  const double enough = strip.jerk > 0.0F ? kMore * larger(most, strip.jerk) : most;
+  const double allowed = larger(most, jerkIn(strip, exact::kInfinity, motion.asked.jerk));
+  const double enough = strip.jerk > 0.0F ? kMore * allowed : most;
   return smaller(motion.asked.settings.jerk, larger(enough, leastJerk(state, velocity)));
 }
 
@@ -119,6 +120,7 @@ void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   task.override = motion.asked.override;
   task.before = motion.planned.override;
   task.deceleration = motion.asked.deceleration;
+  task.brakeJerk = motion.asked.jerk;
   task.cells = motion.cells;
   task.hurry = hurry;
   task.limit = motion.asked.limit;
@@ -271,7 +273,7 @@ double stoppingLength(const Motion &motion, const WayState &state, const Strip &
   const double v = state.velocity;
   if (!hasJerk(motion))
     return 0.5 * v * v / deceleration;
-  const double jerk = jerkIn(strip, motion.asked.settings.jerk);
+  const double jerk = jerkIn(strip, motion.asked.settings.jerk, motion.asked.jerk);
   const double a = larger(state.acceleration, 0.0);
   const double peak = v + 0.5 * a * a / jerk;
   const double time = rampTime(peak, deceleration, jerk);

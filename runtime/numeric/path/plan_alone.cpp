@@ -76,9 +76,10 @@ bool planAlone(Plan &plan, const Course &course) noexcept {
       task.end < strip.end)
     return false;
   const double allowed = 1.0 / strip.along;
-  const Limits limits{
-      exact::sqrt(squareIn(strip, task.override)), smaller(strip.acceleration, allowed),
-      smaller(larger(strip.deceleration, task.deceleration), allowed), jerkIn(strip, task.jerk)};
+  const Limits limits{exact::sqrt(squareIn(strip, task.override)),
+                      smaller(strip.acceleration, allowed),
+                      smaller(larger(strip.deceleration, task.deceleration), allowed),
+                      jerkIn(strip, task.jerk, task.brakeJerk)};
   const double length = strip.end - task.way;
   const double velocity = peakVelocity(length, limits);
   const double steady = length - rampsWay(velocity, limits);

@@ -152,7 +152,7 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
     plan.rampSquare = task.whole ? 0.0 : exact::kInfinity;
     plan.rampMost = exact::kInfinity;
   }
-  const double jerk = jerkIn(strip, plan.rampJerk);
+  const double jerk = jerkIn(strip, plan.rampJerk, task.brakeJerk);
   // An acceleration that falls more slowly leads higher than the strips before allow.
   if (plan.strip > plan.firstStrip && jerk < plan.rampJerk && plan.from.acceleration > 0.0)
     return dropRamp(plan);

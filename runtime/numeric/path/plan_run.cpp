@@ -135,8 +135,9 @@ double leastEnd(const Plan &plan, const Course &course) noexcept {
   constexpr double kMargin = 1.2;
   const double velocity = plan.task.velocity;
   const double deceleration = usableDeceleration(plan, stripAt(course, plan.firstStrip)) / kShare;
-  const double time = velocity / deceleration +
-                      deceleration / jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk);
+  const double time =
+      velocity / deceleration +
+      deceleration / jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk, plan.task.brakeJerk);
   return plan.task.way + kMargin * 0.5 * velocity * time;
 }
 
@@ -176,7 +177,7 @@ Idea ideaAt(const Plan &plan, const Course &course, int64_t number, double way) 
   const double backwards = reach + 2.0 * part.deceleration * (part.end - way);
   const double square = smaller(squareAfter(part, way - part.begin), backwards);
   return {square, part.most, part.acceleration, part.deceleration,
-          jerkIn(stripAt(course, number), plan.task.jerk)};
+          jerkIn(stripAt(course, number), plan.task.jerk, plan.task.brakeJerk)};
 }
 
 double reachAtBorder(const Plan &plan, int64_t strip) noexcept { return reachAt(plan, strip); }
