@@ -91,7 +91,7 @@ TEST(Xdd, SomethingElseIsNoted) {
 
 TEST(Xml, TagsAndTheirParts) {
   XmlTags tags(
-      "<a x='1' y=\"2>3\"/>text <!-- <no/> --><n:b  z = 'q' >&lt;&#65;&unknown;</n:b><c/></r>");
+      "<r><a x='1' y=\"2>3\"/>text <!-- <no/> --><n:b  z = 'q' >&lt;&#65;&unknown;</n:b><c/></r>");
   XmlTag tag;
   ASSERT_TRUE(tags.next(tag));
   EXPECT_EQ(tag.name, "r");
