@@ -197,7 +197,7 @@ void limitJerk(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept 
       jerk = smaller(jerk, (peaks.bent[k] ? kChangeShare * jerkLeft(arm, peaks, k, velocity)
                                           : arm.limits[k].jerk) /
                                peaks.d[1][k]);
-  strip.spareJerk = static_cast<float>(jerk);
+  path::setSpareJerk(strip, jerk);
   strip.jerk = static_cast<float>(smaller(jerk, static_cast<double>(strip.jerk)));
 }
 
@@ -231,20 +231,20 @@ void limitRise(path::Strip &strip) noexcept {
   const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double rise = most / kLeastRise;
   strip.jerk = static_cast<float>(smaller(static_cast<double>(strip.jerk), rise));
-  strip.spareJerk = static_cast<float>(smaller(static_cast<double>(strip.spareJerk), rise));
+  path::setSpareJerk(strip, smaller(path::spareJerk(strip), rise));
 }
 
 /// In bends a stop may ask for what accelerations leave there.
 void limitSpare(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
   const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
   const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
-  double spare = static_cast<double>(strip.spareJerk);
+  double spare = path::spareJerk(strip);
   for (int32_t k = 0; k < axisCount(arm); ++k)
     if (hasAxis(arm, k) && peaks.bent[k] && peaks.d[1][k] > 0.0)
       spare = smaller(spare,
                       (jerkLeft(arm, peaks, k, velocity) - 3.0 * peaks.d[2][k] * velocity * most) /
                           peaks.d[1][k]);
-  strip.spareJerk = static_cast<float>(larger(spare, static_cast<double>(strip.jerk)));
+  path::setSpareJerk(strip, larger(spare, static_cast<double>(strip.jerk)));
 }
 
 void makeStrip(const Arm &arm, Peaks &peaks, const PathLimits &path, double length,

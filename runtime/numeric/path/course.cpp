@@ -24,8 +24,7 @@ void mergeInto(Strip &strip, const Strip &next) noexcept {
   strip.across = larger(strip.across, next.across);
   if (next.jerk > 0.0F && (!(strip.jerk > 0.0F) || next.jerk < strip.jerk))
     strip.jerk = next.jerk;
-  if (next.spareJerk < strip.spareJerk)
-    strip.spareJerk = next.spareJerk;
+  strip.spare = next.spare < strip.spare ? next.spare : strip.spare; // in the order of the values
   strip.end = next.end;
   strip.endFeed = next.endFeed;
   strip.endCeiling = next.endCeiling;

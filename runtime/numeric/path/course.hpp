@@ -22,10 +22,22 @@ struct Strip {
   double along;        ///< Axes allow along * |a| + across * v^2 <= 1; 0: no limit. [s^2/u]
   double across;       ///< See `along`; times `ceiling` at most 0.95. [s^2/u^2]
   float jerk;          ///< Tangential, if that is less than the law's; 0: no limit. [u/s^3]
-  float spareJerk;     ///< Up to which a stop may ask for more than `jerk`. [u/s^3]
+  uint16_t spare;      ///< See spareJerk.
   bool stop;           ///< The motion rests at its end.
   bool gate;           ///< It goes on from there only when it is told to.
 };
+static_assert(sizeof(Strip) == 80); // there are many of them
+
+/// The jerk up to which a stop may ask for more than `jerk`. [u/s^3]
+inline double spareJerk(const Strip &strip) noexcept {
+  return static_cast<double>(__builtin_bit_cast(float, static_cast<uint32_t>(strip.spare) << 16U));
+}
+
+/// Keeps what 16 bits hold of it: up to 0.8 % less. `jerk` is not negative.
+inline void setSpareJerk(Strip &strip, double jerk) noexcept {
+  strip.spare =
+      static_cast<uint16_t>(__builtin_bit_cast(uint32_t, static_cast<float>(jerk)) >> 16U);
+}
 
 inline constexpr int32_t kStrips = 256;
 
@@ -59,7 +71,7 @@ inline double jerkIn(const Strip &strip, double most, double least = 0.0) noexce
   if (!(strip.jerk > 0.0F))
     return most;
   const auto own = static_cast<double>(strip.jerk);
-  const double more = exact::smaller(least, static_cast<double>(strip.spareJerk));
+  const double more = exact::smaller(least, spareJerk(strip));
   return exact::smaller(exact::larger(own, more), most);
 }
 

@@ -36,7 +36,7 @@ std::vector<path::Strip> stripsOf(const std::vector<Cell> &fields) {
   for (const Cell &field : fields) {
     way += field.length;
     strips.push_back({way, kInfinity, kInfinity, field.ceiling, kInfinity, kInfinity, kInfinity,
-                      field.tangential, field.curvature, 0.0F, false, false});
+                      field.tangential, field.curvature, 0.0F, 0, false, false});
   }
   strips.back().stop = true;
   return strips;
