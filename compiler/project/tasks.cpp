@@ -347,7 +347,7 @@ private:
   std::vector<const ast::Decl *> programs_;
   Declarations declarations_;
   bool hadTasks_ = false;
-  bool inOrder_ = false; ///< No errors before the axis groups.
+  bool inOrder_ = false;                         ///< No errors before the axis groups.
   std::unordered_set<const TaskConfig *> onBus_; ///< Started by the SYNC of their bus.
 };
 
