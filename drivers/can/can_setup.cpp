@@ -32,9 +32,10 @@ DriveConfig driveConfig(const bus::SetupParameters &given, double cycle) {
 }
 
 NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
-                      const DrivePlan &plan) {
+                      const DrivePlan &plan, const DriveSettings &settings) {
   NodeConfig node;
   node.plan = plan;
+  node.parameters = settings.startup;
   node.cycle = setup.cycleSeconds;
   node.drive = driveConfig(given, setup.cycleSeconds);
   node.reset = static_cast<NodeConfig::Reset>(given.number("reset"));
@@ -66,7 +67,8 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
   result.hasSyncDevice = plan.sync == SyncProducer::Device;
   result.faults = plan.faults;
   for (size_t i = 0; i < setup.drives.size(); ++i) {
-    NodeConfig node = nodeConfig(setup, setup.drives[i].parameters, plan.drives[i].plan);
+    NodeConfig node =
+        nodeConfig(setup, setup.drives[i].parameters, plan.drives[i].plan, plan.settings[i]);
     if (!result.faults[i].empty())
       node = nobody(node);
     node.producesSync = plan.sync == SyncProducer::FirstDrive && i == 0;

@@ -12,6 +12,41 @@ simulation::BusSetup busSetup(const bus::GroupSetup &setup, const CanSetup &can)
   return result;
 }
 
+/// Below them are the objects that every node has, or has not.
+constexpr uint16_t kDeviceObjects = 0x2000;
+
+simulation::DataType typeOf(uint32_t bits) {
+  switch (bits) {
+  case 8:
+    return simulation::DataType::Unsigned8;
+  case 16:
+    return simulation::DataType::Unsigned16;
+  case 32:
+    return simulation::DataType::Unsigned32;
+  default:
+    return simulation::DataType::Unsigned64;
+  }
+}
+
+/// Objects of its maker that it is given at start-up, or has in its own PDOs.
+std::vector<simulation::ObjectRow> moreObjects(const DriveSettings &settings) {
+  std::vector<simulation::ObjectRow> rows;
+  const auto add = [&rows](Object object, uint32_t bits) {
+    if (object.index >= kDeviceObjects)
+      rows.push_back({.index = object.index,
+                      .sub = object.sub,
+                      .type = typeOf(bits),
+                      .mapping = simulation::kInBoth});
+  };
+  for (const SdoWrite &write : settings.startup)
+    add(write.object, 8U * write.size);
+  for (const std::vector<Pdo> *pdos : {&settings.rpdos, &settings.tpdos})
+    for (const Pdo &pdo : *pdos)
+      for (const PdoEntry &entry : pdo.mapped())
+        add(entry.object, entry.bits);
+  return rows;
+}
+
 /// A drive that is what stride.toml expects.
 simulation::Drive402Setup driveSetup(const bus::DriveSetup &drive) {
   const bus::SetupParameters &given = drive.parameters;
@@ -26,6 +61,7 @@ simulation::Drive402Setup driveSetup(const bus::DriveSetup &drive) {
   if (given.number("torque_rated") > 0)
     result.ratedTorque = given.number("torque_rated");
   result.velocityScale = given.number("velocity_scale");
+  result.more = moreObjects(driveSettings(static_cast<uint8_t>(drive.id), given));
   return result;
 }
 

@@ -9,7 +9,8 @@ constexpr uint32_t kUsualBitRate = 1000;
 constexpr double kLongestCycle = 4e9; // µs
 
 /// What a drive of that section exchanges in every cycle.
-DriveWish driveWish(uint32_t node, const bus::SetupParameters &given) {
+DriveWish driveWish(uint32_t node, const bus::SetupParameters &given,
+                    const DriveSettings &settings) {
   DriveWish wish;
   wish.node = node <= kLastNode ? static_cast<uint8_t>(node) : uint8_t{0};
   wish.controlType = static_cast<uint8_t>(given.number("wControlType"));
@@ -22,12 +23,14 @@ DriveWish driveWish(uint32_t node, const bus::SetupParameters &given) {
   wish.eventPdos = given.flag("event_pdos");
   wish.inputs = given.flag("inputs");
   wish.probeInputs = static_cast<uint8_t>(given.number("probe_inputs"));
+  wish.rpdos = settings.rpdos;
+  wish.tpdos = settings.tpdos;
   return wish;
 }
 
 /// Why a drive cannot be started at all.
-std::string faultOf(const PlanResult &plan, uint32_t id, const bus::GroupSetup &setup,
-                    bool hasSyncDevice) {
+std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint32_t id,
+                    const bus::GroupSetup &setup, bool hasSyncDevice) {
   if (id == 0 || id > kLastNode)
     return "wDriveId is its node id: 1 to 127";
   const auto own = static_cast<uint32_t>(setup.busParameters.number("node_id"));
@@ -38,6 +41,8 @@ std::string faultOf(const PlanResult &plan, uint32_t id, const bus::GroupSetup &
   if (std::count_if(setup.drives.begin(), setup.drives.end(),
                     [id](const bus::DriveSetup &drive) { return drive.id == id; }) > 1)
     return "another drive has the same wDriveId";
+  if (!settings.errors.empty())
+    return settings.errors.front();
   for (const PlanNote note : plan.notes)
     if (isError(note))
       return std::string(describe(note));
@@ -88,9 +93,12 @@ GroupPlan planGroup(const bus::GroupSetup &setup) {
       static_cast<uint32_t>(std::clamp(setup.cycleSeconds * 1e6 + 0.5, 1.0, kLongestCycle));
   std::vector<DrivePlan> plans;
   for (const bus::DriveSetup &drive : setup.drives) {
-    result.drives.push_back(planDrive(driveWish(drive.id, drive.parameters)));
-    result.faults.push_back(
-        faultOf(result.drives.back(), drive.id, setup, result.sync == SyncProducer::Device));
+    const auto node = static_cast<uint8_t>(std::min<uint32_t>(drive.id, kLastNode));
+    result.settings.push_back(driveSettings(node, drive.parameters));
+    const DriveSettings &settings = result.settings.back();
+    result.drives.push_back(planDrive(driveWish(drive.id, drive.parameters, settings)));
+    result.faults.push_back(faultOf(result.drives.back(), settings, drive.id, setup,
+                                    result.sync == SyncProducer::Device));
     if (result.faults.back().empty())
       plans.push_back(result.drives.back().plan);
   }
@@ -102,11 +110,14 @@ void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
   const GroupPlan plan = planGroup(setup);
   for (size_t i = 0; i < plan.drives.size(); ++i) {
     const std::string drive = "drive `" + setup.drives[i].name + "`";
-    if (!plan.faults[i].empty()) {
+    const std::vector<std::string> &errors = plan.settings[i].errors;
+    for (const std::string &error : errors)
+      findings.push_back({true, i, drive + ": " + error, "cannot be served", ""});
+    if (!plan.faults[i].empty() && errors.empty())
       findings.push_back({true, i, drive + " cannot be on a CAN bus so: " + plan.faults[i],
                           "cannot be served", ""});
+    if (!plan.faults[i].empty())
       continue;
-    }
     for (const PlanNote note : plan.drives[i].notes)
       findings.push_back(
           {false, i, drive + ": " + std::string(describe(note)), "served without it", ""});

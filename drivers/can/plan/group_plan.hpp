@@ -4,6 +4,7 @@
 #define STRIDE_DRIVERS_CAN_PLAN_GROUP_PLAN_HPP
 
 #include "drivers/can/plan/bus_load.hpp"
+#include "drivers/can/plan/drive_settings.hpp"
 #include "drivers/can/plan/pdo_plan.hpp"
 #include "runtime/bus/group_check.hpp"
 #include "runtime/bus/group_setup.hpp"
@@ -25,7 +26,8 @@ struct GroupPlan {
   uint32_t bitRate = 1000; ///< [kBit/s]
   uint32_t cycle = 0;      ///< [µs]
   std::vector<PlanResult> drives;
-  std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
+  std::vector<DriveSettings> settings; ///< Of each drive.
+  std::vector<std::string> faults;     ///< Of each drive: why it cannot start; empty: nothing.
   BusLoad load;
 };
 

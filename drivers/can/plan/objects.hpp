@@ -137,6 +137,7 @@ inline constexpr uint16_t kSyncCobId = 0x080;
 inline constexpr uint16_t kEmcyBase = 0x080;
 inline constexpr uint16_t kTpdoBase = 0x180; ///< The next PDO 100h further.
 inline constexpr uint16_t kRpdoBase = 0x200; ///< The same.
+inline constexpr uint16_t kNextPdo = 0x100;
 inline constexpr uint16_t kSdoAnswerBase = 0x580;
 inline constexpr uint16_t kSdoRequestBase = 0x600;
 inline constexpr uint16_t kHeartbeatBase = 0x700;

@@ -37,6 +37,7 @@ struct PdoEntry {
 /// One PDO as it is configured in the drive.
 struct Pdo {
   static constexpr size_t kMostEntries = 8;
+  static constexpr uint32_t kMostBits = 8 * Frame::kMostBytes;
   static constexpr uint8_t kLastSynchronous = 240;
   static constexpr uint8_t kByEvent = 255;
 
@@ -85,16 +86,26 @@ struct DriveWish {
   bool eventPdos = true;   ///< The drive has PDOs that are sent when something changes.
   bool inputs = false;     ///< 60FDh is mapped.
   uint8_t probeInputs = 0; ///< Bit n: input n of DriveStatus latches positions (60B8h, 60B9h).
+  /// PDOs of its own in place of those of the plan, by their numbers; empty: the plan's.
+  std::vector<Pdo> rpdos = {};
+  std::vector<Pdo> tpdos = {};
 };
 
 /// What is to be said about a plan.
 enum class PlanNote : uint8_t {
-  CurrentNotSent,     ///< Set currents have no standard object.
-  UserDataNotMapped,  ///< SetUserDef and ActUserDef need a PDO of one's own.
-  UnknownData,        ///< A number that is no cyclic value.
-  UnknownControlType, ///< An error: there is no plan.
-  NothingSent,        ///< An error: no set value.
-  TooMany,            ///< An error: more than four PDOs in a direction.
+  CurrentNotSent,       ///< Set currents have no standard object.
+  UserDataNotMapped,    ///< SetUserDef and ActUserDef need a PDO of one's own.
+  UnknownData,          ///< A number that is no cyclic value.
+  SetValueNotMapped,    ///< Own PDOs lack a set value that the control type has.
+  ActualValueNotMapped, ///< The same with an actual value.
+  InputsNotMapped,      ///< Own PDOs lack 60FDh.
+  ProbesNotMapped,      ///< Own PDOs lack 60B8h or 60B9h.
+  NobodySets,           ///< Own RPDOs have objects that are no set values.
+  UnknownControlType,   ///< An error: there is no plan.
+  NothingSent,          ///< An error: no set value.
+  TooMany,              ///< An error: more than four PDOs in a direction.
+  NoControlword,        ///< An error: of own PDOs.
+  NoStatusword,         ///< The same.
 };
 bool isError(PlanNote note);
 /// For people.
@@ -107,7 +118,7 @@ struct PlanResult {
   [[nodiscard]] bool usable() const;
 };
 
-/// The default plan with the COB-IDs of the predefined connection set.
+/// The default plan, or the drive's own PDOs, with the COB-IDs of the predefined connection set.
 PlanResult planDrive(const DriveWish &wish);
 
 /// A value that is written into the drive.

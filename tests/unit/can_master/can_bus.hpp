@@ -64,7 +64,7 @@ protected:
         node.hear(frame);
       deliver();
     };
-    driver = makeDriver(setup, std::move(owned));
+    driver = std::make_unique<CanDriver>(setup, std::move(owned));
     driver->attach(host);
     commands.resize(nodes.size());
     started.assign(nodes.size(), false);
