@@ -31,13 +31,10 @@ DriveConfig driveConfig(const bus::SetupParameters &given, double cycle) {
   return drive;
 }
 
-NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
-                      const DrivePlan &plan, const DriveSettings &settings) {
+/// What all kinds of nodes have.
+NodeConfig busConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given) {
   NodeConfig node;
-  node.plan = plan;
-  node.parameters = settings.startup;
   node.cycle = setup.cycleSeconds;
-  node.drive = driveConfig(given, setup.cycleSeconds);
   node.reset = static_cast<NodeConfig::Reset>(given.number("reset"));
   node.identity = {static_cast<uint32_t>(given.number("identity.vendor")),
                    static_cast<uint32_t>(given.number("identity.product")),
@@ -49,6 +46,42 @@ NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &
   node.guard = given.number("guard");
   node.pdoTimeout = static_cast<uint32_t>(given.number("pdo_timeout"));
   return node;
+}
+
+NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
+                      const DrivePlan &plan, const DriveSettings &settings) {
+  NodeConfig node = busConfig(setup, given);
+  node.plan = plan;
+  node.parameters = settings.startup;
+  node.drive = driveConfig(given, setup.cycleSeconds);
+  return node;
+}
+
+NodeConfig encoderConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
+                         const DrivePlan &plan) {
+  NodeConfig node = busConfig(setup, given);
+  node.kind = NodeConfig::Kind::Encoder;
+  node.plan = plan;
+  node.encoderModulo = static_cast<uint32_t>(given.number("dwEncoderModulo"));
+  return node;
+}
+
+/// Nodes after those of the drives, as far as encoders are nodes.
+void addEncoders(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &result) {
+  for (size_t i = 0; i < setup.encoders.size(); ++i) {
+    const EncoderPlan &encoder = plan.encoders[i];
+    CanSetup::EncoderSource &source = result.encoders.emplace_back();
+    source.fault = encoder.fault;
+    if (!encoder.fault.empty())
+      continue;
+    source.node = encoder.drive;
+    source.signal = Signal::SecondPosition;
+    if (encoder.drive != EncoderPlan::kNode)
+      continue;
+    source.node = result.master.nodes.size();
+    source.signal = Signal::EncoderPosition;
+    result.master.nodes.push_back(encoderConfig(setup, setup.encoders[i].parameters, encoder.plan));
+  }
 }
 
 /// A place in the list of nodes that nobody answers at.
@@ -74,6 +107,7 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
     node.producesSync = plan.sync == SyncProducer::FirstDrive && i == 0;
     master.nodes.push_back(std::move(node));
   }
+  addEncoders(setup, plan, result);
   if (result.hasSyncDevice) {
     NodeConfig device;
     device.kind = NodeConfig::Kind::SyncDevice;

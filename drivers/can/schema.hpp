@@ -128,6 +128,19 @@ inline constexpr std::array kIdentity = {
     dword("serial").defaultsTo(0).says("1018h:4"),
 };
 
+// An encoder is served as a drive is, as far as it goes.
+inline constexpr std::array kEncoder = {
+    common::Parameter{"second_of", common::ParameterType::DriveName}.says(
+        "it is the second encoder of this drive (60E4h:1), in the drive's PDOs, and no node of its "
+        "own: `wEncoderId` is without meaning"),
+    kDrive[0].onlyWithout("second_of"),
+    kDrive[1].onlyWithout("second_of"),
+    whole("pdo_timeout", 1, 1000, "cycles")
+        .defaultsTo(3)
+        .onlyWithout("second_of")
+        .says("without its PDO until the encoder counts as silent"),
+};
+
 inline constexpr std::array kRpdo = {
     list("map").needed().says("what it has in it: `[\"6040h\", \"607Ah\", \"2031h:2:16\"]`; the "
                               "bits after the subindex may be left out where CiA 402 fixes them"),
@@ -161,6 +174,11 @@ inline constexpr std::array kDriveTables = {
     common::ParameterTable{"tpdo4", "a TPDO of a drive", kTpdo},
     common::ParameterTable{"physics", "the physics of a simulated drive", dummy::physics::kDrive}};
 
+inline constexpr std::array kEncoderTables = {
+    common::ParameterTable{"identity", "the identity of an encoder", kIdentity},
+    common::ParameterTable{"physics", "the physics of a simulated encoder",
+                           dummy::physics::kEncoder}};
+
 } // namespace rows
 
 /// See drivers/can/plan/group_plan.hpp.
@@ -178,7 +196,9 @@ inline constexpr bus::DriverSchema kSchema = {
     .givesSync = true,
     .bus = rows::kBus,
     .drive = rows::kDrive,
+    .encoder = rows::kEncoder,
     .driveTables = rows::kDriveTables,
+    .encoderTables = rows::kEncoderTables,
     .check = checkGroup,
     .plan = describeGroup,
 };

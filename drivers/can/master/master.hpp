@@ -15,7 +15,7 @@
 namespace stride::can {
 
 struct MasterConfig {
-  /// The nodes with drives, in the order of the axes. A SYNC device comes after them.
+  /// The nodes with drives, in the order of the axes; after them others.
   std::vector<NodeConfig> nodes;
   double cycle = 0.001;     ///< [s]
   double heartbeat = 0.1;   ///< The master's own. [s]

@@ -76,6 +76,8 @@ public:
   [[nodiscard]] const EmcyRing &emcyRing() const { return emcy_; }
   [[nodiscard]] const NodeConfig &config() const { return config_; }
   [[nodiscard]] uint8_t number() const { return config_.plan.node; }
+  /// As its last PDO says.
+  [[nodiscard]] uint32_t signal(Signal signal) const { return signals_.get(signal); }
 
 private:
   enum class Phase : uint8_t { Idle, Starting, Started, Failed };
@@ -91,6 +93,8 @@ private:
   };
 
   void watch(News &news);
+  void watchDrive(News &news);
+  [[nodiscard]] bool isDrive() const { return config_.kind == NodeConfig::Kind::Drive; }
   void countPdos(uint32_t syncs);
   void started(News &news);
   void serveSdo(News &news);

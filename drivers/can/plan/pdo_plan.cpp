@@ -268,6 +268,8 @@ void takeOwnTpdos(const DriveWish &wish, PlanResult &result) {
   plan.received = carried;
   if (!has(wish.tpdos, Signal::Statusword))
     note(result.notes, PlanNote::NoStatusword);
+  if (wish.secondEncoder && !has(wish.tpdos, Signal::SecondPosition))
+    note(result.notes, PlanNote::SecondEncoderNotMapped);
   if (wish.inputs && !has(wish.tpdos, Signal::Inputs))
     note(result.notes, PlanNote::InputsNotMapped);
 }
@@ -292,12 +294,13 @@ bool DrivePlan::carries(Signal signal) const {
 bool isError(PlanNote note) { return note >= PlanNote::UnknownControlType; }
 
 std::string_view describe(PlanNote note) {
-  static constexpr std::array<std::string_view, 13> kTexts = {
+  static constexpr std::array<std::string_view, 14> kTexts = {
       "set currents have no standard object on CAN: SetCurrent is not sent",
       "user-defined cyclic data needs a PDO of its own: it is not sent",
       "unknown cyclic data is not sent",
       "a set value of its wControlType is in none of its own RPDOs",
       "an actual value of its wControlType is in none of its own TPDOs",
+      "its second encoder (60E4h:1) is in none of its own TPDOs",
       "its inputs (60FDh) are in none of its own TPDOs",
       "its touch probes (60B8h in an RPDO, 60B9h in a TPDO) are not in its own PDOs",
       "its own RPDOs have objects that are no set values: they are sent as 0",
@@ -359,8 +362,10 @@ void planTpdos(const DriveWish &wish, PlanResult &result) {
     return;
   }
   Filler filler(plan.tpdos, plan.tpdoCount, kTpdoBase, wish.node, true);
-  fill(filler, {entry(Signal::Statusword), entry(Signal::ModeDisplay), actualValues(plan.received)},
-       wish);
+  std::vector<PdoEntry> values = actualValues(plan.received);
+  if (wish.secondEncoder)
+    values.push_back(entry(Signal::SecondPosition));
+  fill(filler, {entry(Signal::Statusword), entry(Signal::ModeDisplay), std::move(values)}, wish);
   fillExtras(filler, wish);
   if (filler.tooMany())
     note(result.notes, PlanNote::TooMany);
@@ -380,6 +385,17 @@ PlanResult planDrive(const DriveWish &wish) {
   if (result.plan.sent == 0)
     note(result.notes, PlanNote::NothingSent);
   return result;
+}
+
+DrivePlan planEncoder(uint8_t node) {
+  constexpr uint8_t kWithSync = 2; // the first one is sent by a timer of the encoder
+  DrivePlan plan;
+  plan.node = node;
+  Pdo &pdo = plan.tpdos[plan.tpdoCount++];
+  pdo.number = kWithSync;
+  pdo.cobId = static_cast<uint16_t>(kTpdoBase + (kWithSync - 1) * kNextPdo + node);
+  pdo.entries[pdo.count++] = entry(Signal::EncoderPosition);
+  return plan;
 }
 
 } // namespace stride::can

@@ -93,6 +93,8 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
   Widths widths;
   for (const bus::DriveSetup &drive : setup.drives)
     widths.drive = std::max(widths.drive, drive.name.size());
+  for (const bus::EncoderSetup &encoder : setup.encoders)
+    widths.drive = std::max(widths.drive, encoder.name.size());
   text += row(widths, "drive", "node", "PDO", "COB-ID", "when", "bytes", "bits", "content");
   for (size_t i = 0; i < plan.drives.size(); ++i) {
     const std::string &name = setup.drives[i].name;
@@ -107,6 +109,14 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
     writes.insert(writes.end(), startup.begin(), startup.end());
     const std::vector<uint8_t> dcf = conciseDcf(writes);
     result.files.push_back({name + ".cdcf", std::string(dcf.begin(), dcf.end())});
+  }
+  for (size_t i = 0; i < plan.encoders.size(); ++i) {
+    const EncoderPlan &encoder = plan.encoders[i];
+    const std::string &name = setup.encoders[i].name;
+    if (!encoder.fault.empty())
+      text += "  " + wide(name, widths.drive) + encoder.fault + "\n";
+    else if (encoder.drive == EncoderPlan::kNode)
+      addRows(widths, name, encoder.plan, text);
   }
   const uint64_t room = uint64_t{plan.bitRate} * plan.cycle / 1000;
   text += "  " + std::to_string(plan.load.bits) + " of " + std::to_string(room) +
