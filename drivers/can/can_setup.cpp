@@ -118,6 +118,9 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
     master.nodes.push_back(device);
   }
   master.cycle = setup.cycleSeconds;
+  // A simulated bus has the time of a cycle between two of them, and nothing to wait for.
+  if (setup.kind == bus::BusKind::Real)
+    master.readWaitNs = static_cast<int64_t>(setup.busParameters.number("read_wait") * 1e9 + 0.5);
   master.heartbeat = setup.busParameters.number("heartbeat");
   master.node = static_cast<uint8_t>(setup.busParameters.number("node_id"));
   master.givesSync = plan.sync == SyncProducer::Master;

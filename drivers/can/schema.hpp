@@ -67,6 +67,10 @@ inline constexpr std::array kBus = {
         .says("period of the heartbeats of master and drives; whoever misses 1.5 of them knows "
               "that the other one is gone"),
     duration("sdo_timeout").defaultsTo(0.5).says("for each answer to an SDO"),
+    duration("read_wait")
+        .says("after SYNC a cycle waits so long at most for what the drives say at it: actual "
+              "values are "
+              "known one cycle earlier then; on a real bus only; default: no cycle waits"),
 };
 
 inline constexpr std::array kDrive = {

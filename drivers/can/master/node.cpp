@@ -126,6 +126,13 @@ void Node::countPdos(uint32_t syncs) {
     --excess_;
 }
 
+bool Node::pdosComplete() const {
+  for (size_t i = 0; i < config_.plan.tpdoCount; ++i)
+    if (config_.plan.tpdos[i].synchronous() && arrived_[i] == 0)
+      return false;
+  return true;
+}
+
 void Node::watch(News &news) {
   if (loss_ == NodeLoss::None) {
     if (supervision_.bootUps() != bootUps_)

@@ -41,6 +41,8 @@ public:
   void beginReceive();
   /// … and after them: judges what has come. `syncs`: that there have been since the last time.
   void endReceive(uint32_t syncs, News &news);
+  /// All its synchronous TPDOs of the cycle have come.
+  [[nodiscard]] bool pdosComplete() const;
   /// Makes the RPDOs of the cycle.
   void makePdos();
 

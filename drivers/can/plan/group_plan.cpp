@@ -131,6 +131,17 @@ std::vector<EncoderPlan> planEncoders(const bus::GroupSetup &setup, SyncProducer
   return encoders;
 }
 
+void checkReadWait(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
+  const double wait = setup.busParameters.number("read_wait");
+  if (!(wait >= setup.cycleSeconds) || setup.cycleSeconds <= 0)
+    return;
+  findings.push_back({true, bus::GroupFinding::kGroup,
+                      "`read_wait` leaves no time of the cycle for the programs",
+                      "its task has a cycle of " +
+                          milliseconds(static_cast<uint32_t>(setup.cycleSeconds * 1e6 + 0.5)),
+                      "take half of the cycle at most"});
+}
+
 void checkEncoders(const bus::GroupSetup &setup, const GroupPlan &plan,
                    bus::GroupFindings &findings) {
   for (size_t i = 0; i < plan.encoders.size(); ++i)
@@ -192,6 +203,7 @@ void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
           {false, i, drive + ": " + std::string(describe(note)), "served without it", ""});
   }
   checkEncoders(setup, plan, findings);
+  checkReadWait(setup, findings);
   checkLoad(plan, findings);
 }
 

@@ -66,6 +66,8 @@ public:
   /// clock; FALSE: nothing has come. For who has nothing else to do: all other calls do not wait.
   /// A port without a clock of its own does not wait either. [ns]
   virtual bool wait(int64_t /*monotonicNs*/) noexcept { return false; }
+  /// Now, by the clock of wait(); negative: it has none. [ns]
+  [[nodiscard]] virtual int64_t monotonicNs() const noexcept { return -1; }
 
   /// Process frames of cycles before this one that have not left the controller yet, as far as the
   /// port sees that. Known after receive().
