@@ -42,6 +42,9 @@ public:
 
   [[nodiscard]] const Master &master() const { return master_; }
 
+protected:
+  void say(const bus::Message &text) { master_.news().say(text.text()); }
+
 private:
   CanDriver(const CanSetup &setup, std::unique_ptr<Port> port);
 

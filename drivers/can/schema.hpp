@@ -198,6 +198,7 @@ inline constexpr bus::DriverSchema kSchema = {
                   .suffix = "_Sim",
                   .what = "simulation of drive"},
     .givesSync = true,
+    .records = true,
     .bus = rows::kBus,
     .drive = rows::kDrive,
     .encoder = rows::kEncoder,

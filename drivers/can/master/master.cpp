@@ -87,6 +87,10 @@ void Master::watchBus() {
     news_.say(static_cast<uint32_t>(dropped - dropped_),
               " received frames were lost for want of room");
   dropped_ = dropped;
+  if (port_->counters().unlogged > 0 && !saidUnlogged_) {
+    news_.say("the log of the bus lacks frames: its file is too slow, or the disk is full");
+    saidUnlogged_ = true;
+  }
 }
 
 void Master::receiveAll() {

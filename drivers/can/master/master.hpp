@@ -114,6 +114,7 @@ private:
   ControllerState state_ = ControllerState::Active;
   bool syncSeen_ = false;
   bool saidForeign_ = false;
+  bool saidUnlogged_ = false;
   bool saidOverload_ = false;
 };
 

@@ -43,6 +43,7 @@ struct PortCounters {
   uint64_t dropped = 0;     ///< Frames that were received and lost, for want of room.
   uint64_t errorFrames = 0; ///< Error frames …
   uint64_t restarts = 0;    ///< … and restarts after BusOff.
+  uint64_t unlogged = 0;    ///< Frames that a log of the port lacks.
 };
 
 /// One CAN interface. Nothing here allocates or throws, and nothing but wait() waits.
