@@ -62,6 +62,10 @@ void addSimOptions(const HostOptions &host) {
   host.pass("--loop-budget", "Loop iterations a cycle may use before it counts as endless",
             "COUNT");
   host.passFlag("--state-hash", "Print a hash of all variables at the end");
+  host.pass("--can-log", "Write the frames of CAN buses, as candump does", "FILE");
+  host.pass("--can-replay",
+            "Frames of --can-log in place of the simulated bus, compared with what is sent",
+            "FILE");
   host.pass("--retain", "Take RETAIN and PERSISTENT variables from FILE and save them at the end",
             "FILE");
   host.passFlag("--quiet", "Neither progress nor summary");
@@ -72,6 +76,7 @@ void addRunOptions(const HostOptions &host) {
   host.pass("--for", "How long (default: until Ctrl-C): 5s, T#1h", "TIME");
   addTraceOptions(host);
   host.pass("--record", "Record all inputs for `stride sim --replay`", "FILE");
+  host.pass("--can-log", "Write the frames of CAN buses, as candump does", "FILE");
   host.pass("--retain",
             "File for RETAIN and PERSISTENT variables (default: see [retain] of stride.toml)",
             "FILE");

@@ -326,7 +326,9 @@ void addParameters(const CheckedSection &section, std::string_view prefix,
     case ParameterType::Interval:
       result.number = static_cast<double>(parseInterval(value->text).value_or(0)) * 1e-9;
       break;
-    case ParameterType::NameList: // no driver has any
+    case ParameterType::NameList: // by lines
+      for (const TomlNode &element : value->children)
+        result.text += (result.text.empty() ? "" : "\n") + element.text;
       break;
     }
   }

@@ -28,7 +28,8 @@ CanDriver::CanDriver(const CanSetup &setup, std::unique_ptr<Port> port)
       periodNs_(std::max<int64_t>(static_cast<int64_t>(setup.master.cycle * 1e9 + 0.5), 1)),
       stopPatience_(cyclesOf(kStopPatience, setup.master.cycle)),
       offPatience_(cyclesOf(kOffPatience, setup.master.cycle)), standing_(setup.faults.size()),
-      drives_(setup.faults.size()), syncDevice_(setup.hasSyncDevice) {}
+      encoders_(setup.encoders), drives_(setup.faults.size()), syncDevice_(setup.hasSyncDevice),
+      othersFailed_(setup.master.nodes.size() - setup.faults.size()) {}
 
 void CanDriver::attach(bus::DriverHost &host) {
   host_ = &host;
@@ -40,23 +41,45 @@ void CanDriver::attach(bus::DriverHost &host) {
 
 void CanDriver::executeStart() {
   master_.executeStart();
-  if (syncDevice_)
-    startSyncDevice();
+  startOthers();
   if (host_ != nullptr && !stopped_ && master_.syncRuns())
     host_->raise(bus::BusEvent::Sync);
 }
 
-/// It belongs to no axis: nobody else asks for its start-up.
-void CanDriver::startSyncDevice() {
-  Node &device = master_.node(drives_);
-  if (syncDeviceFailed_ || device.started())
-    return;
-  uint16_t progress = 0;
-  bus::Message message;
-  if (device.init(progress, message, master_.news()) != bus::StartUp::Failed)
-    return;
-  syncDeviceFailed_ = true;
-  master_.news().say("SYNC device: ", message.text());
+/// Encoders and the SYNC device belong to no axis: nobody else asks for their start-up.
+void CanDriver::startOthers() {
+  for (size_t i = 0; i < othersFailed_.size(); ++i) {
+    Node &node = master_.node(drives_ + i);
+    if (othersFailed_[i] || node.started() || master_.busLost())
+      continue;
+    uint16_t progress = 0;
+    bus::Message message;
+    if (node.init(progress, message, master_.news()) != bus::StartUp::Failed)
+      continue;
+    othersFailed_[i] = true;
+    const bool sync = syncDevice_ && i + 1 == othersFailed_.size();
+    master_.news().say(sync ? "SYNC device: " : "encoder: ", message.text());
+  }
+}
+
+/// With the drives, those that have failed or are lost begin anew.
+void CanDriver::resetOthers() {
+  for (size_t i = 0; i < othersFailed_.size(); ++i) {
+    if (!othersFailed_[i] && master_.node(drives_ + i).loss() == NodeLoss::None)
+      continue;
+    master_.node(drives_ + i).reset();
+    othersFailed_[i] = false;
+  }
+}
+
+uint32_t CanDriver::encoder(size_t encoder) const {
+  const CanSetup::EncoderSource &source = encoders_[encoder];
+  return source.fault.empty() ? master_.node(source.node).signal(source.signal) : 0;
+}
+
+bool CanDriver::encoderWorks(size_t encoder) const {
+  const CanSetup::EncoderSource &source = encoders_[encoder];
+  return source.fault.empty() && master_.node(source.node).communication();
 }
 
 void CanDriver::executeEnd() {
@@ -93,10 +116,7 @@ bus::StartUp CanDriver::init(size_t drive, uint16_t &progress, bus::Message &mes
 
 void CanDriver::reset(size_t drive) {
   master_.node(drive).reset();
-  if (!syncDevice_ || (!syncDeviceFailed_ && master_.node(drives_).loss() == NodeLoss::None))
-    return;
-  master_.node(drives_).reset();
-  syncDeviceFailed_ = false;
+  resetOthers();
 }
 
 bus::DriveStatus CanDriver::status(size_t drive) const { return master_.node(drive).status(); }

@@ -32,6 +32,8 @@ public:
   bool startParameter(size_t drive, const bus::ParameterRequest &request) override;
   bool pollParameter(size_t drive, bus::ParameterAnswer &answer) override;
   void cancelParameter(size_t drive) override;
+  [[nodiscard]] uint32_t encoder(size_t encoder) const override;
+  [[nodiscard]] bool encoderWorks(size_t encoder) const override;
   void attach(bus::DriverHost &host) override;
   bus::SyncWake waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) override;
   void applicationStopped() override;
@@ -40,10 +42,14 @@ public:
 
   [[nodiscard]] const Master &master() const { return master_; }
 
+protected:
+  void say(const bus::Message &text) { master_.news().say(text.text()); }
+
 private:
   CanDriver(const CanSetup &setup, std::unique_ptr<Port> port);
 
-  void startSyncDevice();
+  void startOthers();
+  void resetOthers();
   void stop();
 
   Master master_;
@@ -55,9 +61,10 @@ private:
   uint32_t stopPatience_;          ///< … until its drives are stopped by themselves.
   uint32_t offPatience_;           ///< … until nobody waits any more for them.
   std::vector<uint32_t> standing_; ///< Of each drive: cycles without a demand to move.
+  std::vector<CanSetup::EncoderSource> encoders_;
   size_t drives_;
-  bool syncDevice_ = false;
-  bool syncDeviceFailed_ = false;
+  bool syncDevice_ = false;        ///< The last node gives SYNC.
+  std::vector<bool> othersFailed_; ///< Of each node after those of the drives.
   bool stopped_ = false;
 };
 

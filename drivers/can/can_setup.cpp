@@ -31,12 +31,10 @@ DriveConfig driveConfig(const bus::SetupParameters &given, double cycle) {
   return drive;
 }
 
-NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
-                      const DrivePlan &plan) {
+/// What all kinds of nodes have.
+NodeConfig busConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given) {
   NodeConfig node;
-  node.plan = plan;
   node.cycle = setup.cycleSeconds;
-  node.drive = driveConfig(given, setup.cycleSeconds);
   node.reset = static_cast<NodeConfig::Reset>(given.number("reset"));
   node.identity = {static_cast<uint32_t>(given.number("identity.vendor")),
                    static_cast<uint32_t>(given.number("identity.product")),
@@ -48,6 +46,42 @@ NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &
   node.guard = given.number("guard");
   node.pdoTimeout = static_cast<uint32_t>(given.number("pdo_timeout"));
   return node;
+}
+
+NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
+                      const DrivePlan &plan, const DriveSettings &settings) {
+  NodeConfig node = busConfig(setup, given);
+  node.plan = plan;
+  node.parameters = settings.startup;
+  node.drive = driveConfig(given, setup.cycleSeconds);
+  return node;
+}
+
+NodeConfig encoderConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
+                         const DrivePlan &plan) {
+  NodeConfig node = busConfig(setup, given);
+  node.kind = NodeConfig::Kind::Encoder;
+  node.plan = plan;
+  node.encoderModulo = static_cast<uint32_t>(given.number("dwEncoderModulo"));
+  return node;
+}
+
+/// Nodes after those of the drives, as far as encoders are nodes.
+void addEncoders(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &result) {
+  for (size_t i = 0; i < setup.encoders.size(); ++i) {
+    const EncoderPlan &encoder = plan.encoders[i];
+    CanSetup::EncoderSource &source = result.encoders.emplace_back();
+    source.fault = encoder.fault;
+    if (!encoder.fault.empty())
+      continue;
+    source.node = encoder.drive;
+    source.signal = Signal::SecondPosition;
+    if (encoder.drive != EncoderPlan::kNode)
+      continue;
+    source.node = result.master.nodes.size();
+    source.signal = Signal::EncoderPosition;
+    result.master.nodes.push_back(encoderConfig(setup, setup.encoders[i].parameters, encoder.plan));
+  }
 }
 
 /// A place in the list of nodes that nobody answers at.
@@ -66,12 +100,14 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
   result.hasSyncDevice = plan.sync == SyncProducer::Device;
   result.faults = plan.faults;
   for (size_t i = 0; i < setup.drives.size(); ++i) {
-    NodeConfig node = nodeConfig(setup, setup.drives[i].parameters, plan.drives[i].plan);
+    NodeConfig node =
+        nodeConfig(setup, setup.drives[i].parameters, plan.drives[i].plan, plan.settings[i]);
     if (!result.faults[i].empty())
       node = nobody(node);
     node.producesSync = plan.sync == SyncProducer::FirstDrive && i == 0;
     master.nodes.push_back(std::move(node));
   }
+  addEncoders(setup, plan, result);
   if (result.hasSyncDevice) {
     NodeConfig device;
     device.kind = NodeConfig::Kind::SyncDevice;
@@ -82,6 +118,9 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
     master.nodes.push_back(device);
   }
   master.cycle = setup.cycleSeconds;
+  // A simulated bus has the time of a cycle between two of them, and nothing to wait for.
+  if (setup.kind == bus::BusKind::Real)
+    master.readWaitNs = static_cast<int64_t>(setup.busParameters.number("read_wait") * 1e9 + 0.5);
   master.heartbeat = setup.busParameters.number("heartbeat");
   master.node = static_cast<uint8_t>(setup.busParameters.number("node_id"));
   master.givesSync = plan.sync == SyncProducer::Master;

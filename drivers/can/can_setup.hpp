@@ -17,7 +17,14 @@ struct CanSetup {
   std::string interface;           ///< "can0".
   uint32_t bitRate = 1000;         ///< [kBit/s]
   std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
-  bool hasSyncDevice = false;      ///< It is the last node.
+  /// Of each encoder: the node that tells its position, and in which signal.
+  struct EncoderSource {
+    size_t node = 0;
+    Signal signal = Signal::EncoderPosition;
+    std::string fault; ///< Why it cannot be read; empty: nothing.
+  };
+  std::vector<EncoderSource> encoders;
+  bool hasSyncDevice = false; ///< It is the last node.
 };
 
 CanSetup canSetup(const bus::GroupSetup &setup);

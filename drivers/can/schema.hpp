@@ -17,6 +17,9 @@ inline constexpr int64_t kShutdown = 1;
 inline constexpr int64_t kResetCommunication = 0;
 inline constexpr int64_t kResetNode = 1;
 inline constexpr int64_t kResetNone = 2;
+// when
+inline constexpr int64_t kAtSync = 0;
+inline constexpr int64_t kByEvent = 1;
 // homing
 inline constexpr int64_t kHomesItself = 0;
 inline constexpr int64_t kHomedByController = 1;
@@ -39,6 +42,14 @@ inline constexpr std::array<Choice, 3> kResets = {
 inline constexpr std::array<Choice, 2> kHomings = {
     {{"drive", kHomesItself}, {"controller", kHomedByController}}};
 
+// Whether a PDO is sent at every SYNC or when something changes.
+inline constexpr std::array<Choice, 2> kWhens = {{{"sync", kAtSync}, {"event", kByEvent}}};
+
+/// A list of texts.
+constexpr common::Parameter list(std::string_view name) {
+  return {name, common::ParameterType::NameList};
+}
+
 constexpr double limitsAreUsed(const ParameterValues &values) {
   return values.number("bHWLimitEnable");
 }
@@ -55,6 +66,10 @@ inline constexpr std::array kBus = {
         .says("period of the heartbeats of master and drives; whoever misses 1.5 of them knows "
               "that the other one is gone"),
     duration("sdo_timeout").defaultsTo(0.5).says("for each answer to an SDO"),
+    duration("read_wait")
+        .says("after SYNC a cycle waits so long at most for what the drives say at it: actual "
+              "values are "
+              "known one cycle earlier then; on a real bus only; default: no cycle waits"),
 };
 
 inline constexpr std::array kDrive = {
@@ -100,6 +115,10 @@ inline constexpr std::array kDrive = {
     positive("velocity_scale", "increments/s")
         .defaultsTo(1)
         .says("one unit of the drive's velocities (606Ch, 60FFh, 60B1h)"),
+    list("startup").says(
+        "objects that are written when the drive starts, after its PDOs, in this order: "
+        "`[\"6098h := 35\", \"2031h:2 := UINT#500\"]`; the type may be left out where CiA 402 "
+        "fixes it"),
     whole("pdo_timeout", 1, 1000, "cycles")
         .defaultsTo(3)
         .says("without a synchronous PDO until the drive counts as silent"),
@@ -112,9 +131,56 @@ inline constexpr std::array kIdentity = {
     whole("serial", 0, common::kLargestDword).defaultsTo(0).says("1018h:4"),
 };
 
+// An encoder is served as a drive is, as far as it goes.
+inline constexpr std::array kEncoder = {
+    common::Parameter{"second_of", common::ParameterType::DriveName}.says(
+        "it is the second encoder of this drive (60E4h:1), in the drive's PDOs, and no node of its "
+        "own: `wEncoderId` is without meaning"),
+    kDrive[0].onlyWithout("second_of"),
+    kDrive[1].onlyWithout("second_of"),
+    whole("pdo_timeout", 1, 1000, "cycles")
+        .defaultsTo(3)
+        .onlyWithout("second_of")
+        .says("without its PDO until the encoder counts as silent"),
+};
+
+inline constexpr std::array kRpdo = {
+    list("map").needed().says("what it has in it: `[\"6040h\", \"607Ah\", \"2031h:2:16\"]`; the "
+                              "bits after the subindex may be left out where CiA 402 fixes them"),
+    choice("when", kWhens)
+        .defaultsTo(kAtSync)
+        .says("whether it is sent in every cycle, or when something in it changes"),
+};
+
+inline constexpr std::array kTpdo = {
+    kRpdo[0],
+    kRpdo[1],
+    duration("inhibit")
+        .defaultsTo(0)
+        .onlyWith("when", kByEvent)
+        .says("shortest time between two of them, in steps of 100 µs"),
+    duration("event")
+        .defaultsTo(0.1)
+        .onlyWith("when", kByEvent)
+        .says("it is sent at least so often"),
+};
+
 inline constexpr std::array kDriveTables = {
     common::ParameterTable{"identity", "the identity of a drive", kIdentity},
+    common::ParameterTable{"rpdo1", "an RPDO of a drive", kRpdo},
+    common::ParameterTable{"rpdo2", "an RPDO of a drive", kRpdo},
+    common::ParameterTable{"rpdo3", "an RPDO of a drive", kRpdo},
+    common::ParameterTable{"rpdo4", "an RPDO of a drive", kRpdo},
+    common::ParameterTable{"tpdo1", "a TPDO of a drive", kTpdo},
+    common::ParameterTable{"tpdo2", "a TPDO of a drive", kTpdo},
+    common::ParameterTable{"tpdo3", "a TPDO of a drive", kTpdo},
+    common::ParameterTable{"tpdo4", "a TPDO of a drive", kTpdo},
     common::ParameterTable{"physics", "the physics of a simulated drive", dummy::physics::kDrive}};
+
+inline constexpr std::array kEncoderTables = {
+    common::ParameterTable{"identity", "the identity of an encoder", kIdentity},
+    common::ParameterTable{"physics", "the physics of a simulated encoder",
+                           dummy::physics::kEncoder}};
 
 } // namespace rows
 
@@ -131,9 +197,12 @@ inline constexpr bus::DriverSchema kSchema = {
                   .suffix = "_Sim",
                   .what = "simulation of drive"},
     .givesSync = true,
+    .records = true,
     .bus = rows::kBus,
     .drive = rows::kDrive,
+    .encoder = rows::kEncoder,
     .driveTables = rows::kDriveTables,
+    .encoderTables = rows::kEncoderTables,
     .check = checkGroup,
     .plan = describeGroup,
 };

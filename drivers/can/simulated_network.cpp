@@ -12,8 +12,49 @@ simulation::BusSetup busSetup(const bus::GroupSetup &setup, const CanSetup &can)
   return result;
 }
 
+/// Below them are the objects that every node has, or has not.
+constexpr uint16_t kDeviceObjects = 0x2000;
+
+simulation::DataType typeOf(uint32_t bits) {
+  switch (bits) {
+  case 8:
+    return simulation::DataType::Unsigned8;
+  case 16:
+    return simulation::DataType::Unsigned16;
+  case 32:
+    return simulation::DataType::Unsigned32;
+  default:
+    return simulation::DataType::Unsigned64;
+  }
+}
+
+/// Objects of its maker that it is given at start-up, or has in its own PDOs.
+std::vector<simulation::ObjectRow> moreObjects(const DriveSettings &settings) {
+  std::vector<simulation::ObjectRow> rows;
+  const auto add = [&rows](Object object, uint32_t bits) {
+    if (object.index >= kDeviceObjects)
+      rows.push_back({.index = object.index,
+                      .sub = object.sub,
+                      .type = typeOf(bits),
+                      .mapping = simulation::kInBoth});
+  };
+  for (const SdoWrite &write : settings.startup)
+    add(write.object, 8U * write.size);
+  for (const std::vector<Pdo> *pdos : {&settings.rpdos, &settings.tpdos})
+    for (const Pdo &pdo : *pdos)
+      for (const PdoEntry &entry : pdo.mapped())
+        add(entry.object, entry.bits);
+  return rows;
+}
+
+double stepsPerUnit(const bus::SetupParameters &encoder) {
+  return encoder.number("dwRatioTechUnitsDenom") / encoder.number("iRatioTechUnitsNum");
+}
+
 /// A drive that is what stride.toml expects.
-simulation::Drive402Setup driveSetup(const bus::DriveSetup &drive) {
+simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPlan &plan,
+                                     size_t index) {
+  const bus::DriveSetup &drive = setup.drives[index];
   const bus::SetupParameters &given = drive.parameters;
   const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
   simulation::Drive402Setup result;
@@ -26,19 +67,60 @@ simulation::Drive402Setup driveSetup(const bus::DriveSetup &drive) {
   if (given.number("torque_rated") > 0)
     result.ratedTorque = given.number("torque_rated");
   result.velocityScale = given.number("velocity_scale");
+  for (size_t i = 0; i < plan.encoders.size(); ++i)
+    if (plan.encoders[i].drive == index)
+      result.secondEncoder =
+          result.drive.unitsPerIncrement * stepsPerUnit(setup.encoders[i].parameters);
+  result.more = moreObjects(driveSettings(static_cast<uint8_t>(drive.id), given));
   return result;
+}
+
+} // namespace
+
+namespace {
+
+std::unique_ptr<simulation::SimulatedEncoder406> makeEncoder(const bus::GroupSetup &setup,
+                                                             const bus::EncoderSetup &encoder,
+                                                             const SimulatedNodes &nodes) {
+  const bus::SetupParameters &given = encoder.parameters;
+  const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
+  simulation::Encoder406Setup result;
+  result.node.id = static_cast<uint8_t>(encoder.id);
+  result.node.name = "Stride simulated encoder";
+  result.node.vendor = number("identity.vendor");
+  result.node.product = number("identity.product");
+  result.node.revision = number("identity.revision");
+  result.node.serial = number("identity.serial");
+  constexpr uint32_t kTurns = 32768; // of 2^17 steps: all 32 bits
+  const uint32_t modulo = number("dwEncoderModulo");
+  result.perTurn = modulo != 0 ? modulo : uint32_t{1} << 17U;
+  result.turns = modulo != 0 ? 1 : kTurns;
+  const double steps = stepsPerUnit(given);
+  result.velocity = given.number("physics.own_velocity") * steps;
+  const size_t drive = driveNamed(setup, given.text("physics.follows"));
+  const bool follows = drive < setup.drives.size() && nodes.drives[drive] != nullptr;
+  if (follows)
+    result.stepsPerIncrement =
+        dummy::driveParameters(setup.drives[drive].parameters).unitsPerIncrement * steps;
+  auto node = std::make_unique<simulation::SimulatedEncoder406>(result);
+  if (follows)
+    node->follow(nodes.drives[drive].get());
+  return node;
 }
 
 } // namespace
 
 SimulatedNodes simulatedNodes(const bus::GroupSetup &setup) {
   const CanSetup can = canSetup(setup);
+  const GroupPlan plan = planGroup(setup);
   SimulatedNodes nodes;
   nodes.drives.resize(setup.drives.size());
   for (size_t i = 0; i < setup.drives.size(); ++i)
     if (can.faults[i].empty())
-      nodes.drives[i] =
-          std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup.drives[i]));
+      nodes.drives[i] = std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup, plan, i));
+  for (size_t i = 0; i < setup.encoders.size(); ++i)
+    if (plan.encoders[i].fault.empty() && plan.encoders[i].drive == EncoderPlan::kNode)
+      nodes.encoders.push_back(makeEncoder(setup, setup.encoders[i], nodes));
   if (can.hasSyncDevice) {
     simulation::NodeSetup node;
     node.id = kSyncDevice;
@@ -54,6 +136,8 @@ SimulatedNetwork::SimulatedNetwork(const bus::GroupSetup &setup)
   for (const auto &drive : nodes_.drives)
     if (drive != nullptr)
       bus_.attach(*drive);
+  for (const auto &encoder : nodes_.encoders)
+    bus_.attach(*encoder);
   if (nodes_.syncDevice != nullptr)
     bus_.attach(*nodes_.syncDevice);
 }

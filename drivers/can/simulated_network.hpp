@@ -4,6 +4,7 @@
 
 #include "drivers/can/port/port.hpp"
 #include "drivers/can/simulation/drive402.hpp"
+#include "drivers/can/simulation/encoder406.hpp"
 #include "drivers/can/simulation/simulated_bus.hpp"
 #include "runtime/bus/group_setup.hpp"
 
@@ -18,6 +19,8 @@ namespace stride::can {
 struct SimulatedNodes {
   /// As configured; null: one that cannot be at the bus.
   std::vector<std::unique_ptr<simulation::SimulatedDrive402>> drives;
+  /// Those that are nodes; they have to be attached after the drives.
+  std::vector<std::unique_ptr<simulation::SimulatedEncoder406>> encoders;
   std::unique_ptr<simulation::CanopenNode> syncDevice; ///< Null: there is none.
 };
 

@@ -255,6 +255,9 @@ public:
   /// The count of an encoder, taken over by the last executeStart.
   [[nodiscard]] virtual uint32_t encoder(size_t /*encoder*/) const { return 0; }
 
+  /// Whether that count is one: FALSE while the encoder has not started, or is not heard.
+  [[nodiscard]] virtual bool encoderWorks(size_t /*encoder*/) const { return true; }
+
   /// Where the structure that driver and program share about a drive (AXIS_REF.pMS) is now; null:
   /// there is none. Called before the first cycle and whenever the application has moved.
   virtual void bindData(size_t /*drive*/, void * /*data*/) {}

@@ -82,9 +82,22 @@ void DriveGroup::executeStart() {
     serveParameters(i);
   }
   if (group_->wState == axis::kNormalOperation)
-    for (size_t i = 0; i < encoders_.size(); ++i)
-      if (encoders_[i]->bFed == 0)
-        axis::updateEncoder(*encoders_[i], driver_->encoder(i));
+    readEncoders();
+}
+
+/// What has not been heard of for a while may be anywhere: it begins where it is then.
+void DriveGroup::readEncoders() {
+  for (size_t i = 0; i < encoders_.size(); ++i) {
+    axis::EncoderRef &encoder = *encoders_[i];
+    if (encoder.bFed != 0)
+      continue;
+    if (!driver_->encoderWorks(i))
+      encoder.bValid = 0;
+    else if (encoder.bValid == 0)
+      axis::synchronizeEncoder(encoder, driver_->encoder(i));
+    else
+      axis::updateEncoder(encoder, driver_->encoder(i));
+  }
 }
 
 bool DriveGroup::resetting() const {
@@ -107,10 +120,6 @@ void DriveGroup::startUp() {
     least = std::min(least, axis.wCommunicationState);
   }
   group_->wState = least;
-  if (least == axis::kNormalOperation)
-    for (size_t i = 0; i < encoders_.size(); ++i)
-      if (encoders_[i]->bFed == 0)
-        axis::synchronizeEncoder(*encoders_[i], driver_->encoder(i));
 }
 
 /// One step of the start-up of a drive. Failed: `failure` is what the state of the group becomes

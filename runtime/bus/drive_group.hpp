@@ -71,6 +71,7 @@ private:
 
   bool resetting() const;
   void startUp();
+  void readEncoders();
   StartUp startDrive(size_t index, uint16_t &failure);
   void startFailed(size_t index, std::string_view message);
   void beginReset();

@@ -26,6 +26,7 @@ struct DriverSchema {
   SharedData driveData = {};
   /// The bus has a SYNC every dwCycle: it starts the task on bSync of its axis group (waitSync).
   bool givesSync = false;
+  bool records = false; ///< What passes the bus can be kept and repeated (GroupSetup::recording).
   // Parameters of its own, besides those of plc_schema.hpp.
   std::span<const common::Parameter> bus = {};
   std::span<const common::Parameter> axisGroup = {};

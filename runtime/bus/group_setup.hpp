@@ -34,6 +34,12 @@ enum class BusKind : uint8_t {
   Real,      ///< What the configuration names.
 };
 
+/// What is kept of what passes a bus, or repeated: files; empty: nothing.
+struct BusRecording {
+  std::string log;    ///< Is written.
+  std::string replay; ///< Such a file, which takes the place of the simulated bus.
+};
+
 /// All values that stride.toml does not give are those of the driver's schema and of
 /// plc_schema.hpp.
 struct GroupSetup {
@@ -58,6 +64,7 @@ struct GroupSetup {
   std::string bus;
   std::string interfaceType;
   BusKind kind = BusKind::Simulated;
+  BusRecording recording;  ///< As far as the driver can.
   double cycleSeconds = 0; ///< Of the group's task.
   SetupParameters busParameters;
   SetupParameters parameters;

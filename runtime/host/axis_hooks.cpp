@@ -8,6 +8,7 @@
 #include "runtime/host/news_ring.hpp"
 #include "runtime/host/task_times.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -307,6 +308,25 @@ void bindData(const DriveDesc &drive, const drivers::DriverEntry &driver, std::b
   at<axis::AxisRef>(state, drive.axisOffset).pMS = &at<BYTE>(state, drive.dataOffset);
 }
 
+/// With the name of the group before its ending, where there are several.
+std::string ownFile(const std::string &file, const StrideAppV1 &app, const AxisGroupDesc &group) {
+  if (file.empty() || app.axisGroupCount < 2)
+    return file;
+  std::filesystem::path path(file);
+  path.replace_filename(path.stem().string() + "." + group.name + path.extension().string());
+  return path.string();
+}
+
+void checkRecording(const StrideAppV1 &app, const bus::BusRecording &recording) {
+  if (recording.log.empty() && recording.replay.empty())
+    return;
+  for (uint32_t i = 0; i < app.axisGroupCount; ++i)
+    if (driverOf(app.axisGroups[i]).schema->records)
+      return;
+  throw app::Error(fmt::format("the application has no CAN bus that '{}' could be of",
+                               recording.log.empty() ? recording.replay : recording.log));
+}
+
 } // namespace
 
 app::RuntimeLayouts runtimeLayouts() {
@@ -316,15 +336,18 @@ app::RuntimeLayouts runtimeLayouts() {
 
 std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
                                                             task::TaskSet &tasks, InputPort &inputs,
-                                                            bus::BusKind buses) {
+                                                            bus::BusKind buses,
+                                                            const bus::BusRecording &recording) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
+  checkRecording(app, recording);
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];
     const drivers::DriverEntry &driver = driverOf(group);
     bus::GroupSetup setup = groupSetup(app, group, *driver.schema);
     setup.kind = buses;
+    setup.recording = {ownFile(recording.log, app, group), ownFile(recording.replay, app, group)};
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(), driver.make(setup),

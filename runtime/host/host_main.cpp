@@ -57,6 +57,8 @@ struct SimTexts {
   std::string retain;
   std::string files;
   int64_t loopBudget = 0;
+  std::string canLog;
+  std::string canReplay;
   bool stateHash = false;
   bool quiet = false;
   bool summary = false;
@@ -74,6 +76,13 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
                      "Repeat the cycles and inputs of a run that 'run --record' has recorded")
           ->type_name("FILE")
           ->excludes(duration);
+  sim.add_option("--can-log", texts.canLog, "Write the frames of CAN buses, as candump does")
+      ->type_name("FILE");
+  sim.add_option(
+         "--can-replay", texts.canReplay,
+         "Frames that '--can-log' has written take the place of a simulated CAN bus; what is "
+         "sent is compared with them")
+      ->type_name("FILE");
   sim.callback([duration, replay] {
     if (duration->count() == 0 && replay->count() == 0)
       throw CLI::RequiredError("--for");
@@ -176,6 +185,8 @@ void declareFiles(CLI::App &run, RunOptions &options) {
   run.add_option("--record", options.record,
                  "Record all inputs for 'sim --replay'; the tasks take turns then")
       ->type_name("FILE");
+  run.add_option("--can-log", options.canLog, "Write the frames of CAN buses, as candump does")
+      ->type_name("FILE");
   run.add_option("--retain", options.retain,
                  "File for RETAIN and PERSISTENT variables; the application's own, or NAME.retain, "
                  "without it")
@@ -269,6 +280,8 @@ SimOptions understand(const SimTexts &texts) {
   options.stateHash = texts.stateHash;
   options.retain = texts.retain;
   options.files = texts.files;
+  options.canLog = texts.canLog;
+  options.canReplay = texts.canReplay;
   options.quiet = texts.quiet;
   options.summary = texts.summary;
   return options;
@@ -295,6 +308,8 @@ RunOptions understand(const RunTexts &texts) {
     options.core = static_cast<uint32_t>(texts.core);
   if (!options.record.empty() && options.applications.size() > 1)
     throw app::Error("--record records one application; start the others by themselves");
+  if (!options.canLog.empty() && options.applications.size() > 1)
+    throw app::Error("--can-log records one application; start the others by themselves");
   options.onFault = texts.onFault == "restart" ? OnFault::Restart : OnFault::Stop;
   return options;
 }

@@ -34,6 +34,9 @@ public:
   /// Before initialise: drives are on the buses that the configuration names, not simulated ones.
   void useRealBuses() { buses_ = bus::BusKind::Real; }
 
+  /// Before initialise: what passes the buses is kept, or repeated.
+  void recordBuses(bus::BusRecording recording) { recording_ = std::move(recording); }
+
   /// Before initialise(): the folder for the program's files, in place of the application's own.
   void setFiles(std::string folder) { filesFolder_ = std::move(folder); }
 
@@ -99,6 +102,7 @@ private:
   LiveInputs live_;
   InputPort *inputs_ = &live_;
   bus::BusKind buses_ = bus::BusKind::Simulated;
+  bus::BusRecording recording_;
 };
 
 } // namespace stride::host

@@ -39,8 +39,10 @@ struct SimOptions {
   bool stateHash = false;            ///< Print a hash of the state at the end.
   bool quiet = false;                ///< No progress and no summary.
   bool summary = false;              ///< A summary even when standard error is no terminal.
-  std::string retain; ///< File for RETAIN and PERSISTENT variables; empty: they are not kept.
-  std::string files;  ///< Folder for the program's files; empty: the application's own.
+  std::string retain;    ///< File for RETAIN and PERSISTENT variables; empty: they are not kept.
+  std::string files;     ///< Folder for the program's files; empty: the application's own.
+  std::string canLog;    ///< File for the frames of CAN buses; or empty.
+  std::string canReplay; ///< Such a file, in place of the bus; or empty.
 };
 
 /// What happens when an exception has stopped an application.
@@ -65,6 +67,7 @@ struct RunOptions {
   bool acceptLosses = false; ///< An online change may lose values.
   std::string retain; ///< File for RETAIN and PERSISTENT variables; empty: the application's own.
   std::string files;  ///< Folder for the program's files; empty: the application's own.
+  std::string canLog; ///< File for the frames of CAN buses; or empty.
   std::optional<uint32_t> core; ///< For tasks that choose none; empty: the last one allowed.
   bool turns = false;           ///< One cycle at a time.
   bool histogram = false;       ///< Distributions after the table of statistics.

@@ -45,6 +45,7 @@ Session::Session(std::unique_ptr<app::Application> application, size_t number,
   if (!options.files.empty())
     instance_.setFiles(options.files);
   instance_.useRealBuses();
+  instance_.recordBuses({options.canLog, {}});
   RetainSettings retain = retainSettings(app);
   if (!options.retain.empty())
     retain.file = options.retain;

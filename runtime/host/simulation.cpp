@@ -280,6 +280,7 @@ Simulation::Simulation(std::unique_ptr<app::Application> application, const SimO
       sets_(readSets(instance_, options)) {
   if (!options.files.empty())
     instance_.setFiles(options.files);
+  instance_.recordBuses({options.canLog, options.canReplay});
   if (!options.retain.empty())
     instance_.retain({options.retain}, [&messages](std::string_view line) { messages.say(line); });
   if (options.loopBudget > 0)

@@ -149,7 +149,7 @@ private:
     TestTasks tasks(description, state, result_);
     tasks.setSystem(system_.cycleApi());
     const auto devices = addIoDevices(application_, tasks, inputs_);
-    const auto axes = addAxisGroups(application_, tasks, inputs_, bus::BusKind::Simulated);
+    const auto axes = addAxisGroups(application_, tasks, inputs_, bus::BusKind::Simulated, {});
     for (int64_t timeNs = 0;; timeNs += cycleNs) {
       if (done != nullptr && timeNs >= plan_.timeoutNs) {
         fail("timeout",

@@ -56,6 +56,7 @@ void Master::executeStart() {
   receiveAll();
   judgeSync();
   judgeSetValues();
+  awaitPdos();
   const uint32_t syncs = config_.givesSync ? 1 : syncs_;
   bool duplicate = false;
   for (Node &node : nodes_) {
@@ -86,6 +87,10 @@ void Master::watchBus() {
     news_.say(static_cast<uint32_t>(dropped - dropped_),
               " received frames were lost for want of room");
   dropped_ = dropped;
+  if (port_->counters().unlogged > 0 && !saidUnlogged_) {
+    news_.say("the log of the bus lacks frames: its file is too slow, or the disk is full");
+    saidUnlogged_ = true;
+  }
 }
 
 void Master::receiveAll() {
@@ -102,6 +107,30 @@ void Master::receiveAll() {
     news_.say("more frames than ", static_cast<uint32_t>(count),
               " in a cycle: the rest is read in the next ones");
   saidOverload_ = true;
+}
+
+/// Nobody waits for a node that is silent: it delays its first cycles only.
+bool Master::lacksPdos() const {
+  return std::any_of(nodes_.begin(), nodes_.end(),
+                     [](const Node &node) { return node.communication() && !node.pdosComplete(); });
+}
+
+void Master::awaitPdos() {
+  const int64_t now = config_.readWaitNs > 0 && !isLost(state_) ? port_->monotonicNs() : -1;
+  if (now < 0)
+    return;
+  for (size_t room = frames_.size(); lacksPdos();) {
+    const size_t count = room > 0 && port_->wait(now + config_.readWaitNs)
+                             ? port_->receive(std::span(frames_).first(room))
+                             : 0;
+    if (count == 0) {
+      ++counters_.readsLate;
+      return;
+    }
+    for (size_t i = 0; i < count; ++i)
+      take(frames_[i].frame);
+    room -= count;
+  }
 }
 
 void Master::take(const Frame &frame) {

@@ -15,13 +15,16 @@
 namespace stride::can {
 
 struct MasterConfig {
-  /// The nodes with drives, in the order of the axes. A SYNC device comes after them.
+  /// The nodes with drives, in the order of the axes; after them others.
   std::vector<NodeConfig> nodes;
   double cycle = 0.001;     ///< [s]
   double heartbeat = 0.1;   ///< The master's own. [s]
   uint8_t node = 126;       ///< The master's number.
   uint32_t sdoPerCycle = 1; ///< SDO frames that go out in a cycle at most.
   bool givesSync = true;    ///< Else a node does.
+  /// So long a cycle waits at most for the PDOs that SYNC has asked for; 0: they are those of the
+  /// SYNC before. [ns]
+  int64_t readWaitNs = 0;
 };
 
 /// What has happened on the bus since the beginning.
@@ -31,6 +34,7 @@ struct MasterCounters {
   uint64_t foreignSyncs = 0;  ///< SYNCs of others, while the master gives SYNC.
   uint64_t sendQueueFull = 0; ///< Frames for which the interface had no room.
   uint64_t setValuesLate = 0; ///< Cycles whose PDOs had not all gone out when the next one began.
+  uint64_t readsLate = 0;     ///< Cycles that have waited for PDOs in vain.
   uint64_t overloads = 0;     ///< Cycles with more frames than are read in one.
 };
 
@@ -81,6 +85,8 @@ private:
   void addRoutes(uint8_t index);
   void watchBus();
   void receiveAll();
+  void awaitPdos();
+  [[nodiscard]] bool lacksPdos() const;
   void take(const Frame &frame);
   void judgeSync();
   void judgeSetValues();
@@ -108,6 +114,7 @@ private:
   ControllerState state_ = ControllerState::Active;
   bool syncSeen_ = false;
   bool saidForeign_ = false;
+  bool saidUnlogged_ = false;
   bool saidOverload_ = false;
 };
 

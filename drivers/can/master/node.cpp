@@ -87,6 +87,12 @@ void Node::endReceive(uint32_t syncs, News &news) {
     return;
   countPdos(syncs);
   watch(news);
+  if (isDrive())
+    watchDrive(news);
+  serveSdo(news);
+}
+
+void Node::watchDrive(News &news) {
   drive_.read(signals_, emcy_.code());
   drive_.reach(communication());
   if (drive_.velocityDoubtful())
@@ -96,7 +102,6 @@ void Node::endReceive(uint32_t syncs, News &news) {
     news.say("node ", uint32_t{config_.plan.node}, " stays in '", nameOf(drive_.powerState()),
              "' whatever it is told");
   saidStuck_ = drive_.stuck();
-  serveSdo(news);
 }
 
 /// Synchronous TPDOs: one for each SYNC. Late ones come with the next.
@@ -119,6 +124,13 @@ void Node::countPdos(uint32_t syncs) {
     excess_ = std::min(excess_ + most - due, kMostExcess);
   else if (most == 0 && excess_ > 0 && !duplicate())
     --excess_;
+}
+
+bool Node::pdosComplete() const {
+  for (size_t i = 0; i < config_.plan.tpdoCount; ++i)
+    if (config_.plan.tpdos[i].synchronous() && arrived_[i] == 0)
+      return false;
+  return true;
 }
 
 void Node::watch(News &news) {
@@ -169,7 +181,8 @@ void Node::makePdos() {
       one.due = false;
     return;
   }
-  drive_.write(signals_);
+  if (isDrive())
+    drive_.write(signals_);
   for (size_t i = 0; i < config_.plan.rpdoCount; ++i) {
     const Pdo &pdo = config_.plan.rpdos[i];
     Rpdo &one = rpdos_[i];
@@ -225,7 +238,8 @@ bus::StartUp Node::init(uint16_t &progress, bus::Message &message, News &news) {
 void Node::started(News &news) {
   phase_ = Phase::Started;
   bootUps_ = supervision_.bootUps();
-  drive_.begin(facts_, signals_);
+  if (isDrive())
+    drive_.begin(facts_, signals_);
   for (Rpdo &one : rpdos_)
     one = {};
   sayLacks(news);
@@ -233,7 +247,7 @@ void Node::started(News &news) {
 
 void Node::sayLacks(News &news) const {
   const uint32_t number = config_.plan.node;
-  if (config_.kind == NodeConfig::Kind::Drive && !isExactPeriod(config_.cycle))
+  if (isDrive() && !isExactPeriod(config_.cycle))
     news.say("node ", number, ": its interpolation period (60C2h) cannot be exactly the cycle");
   if (startUp_.lacksConsumer())
     news.say("node ", number,
@@ -277,7 +291,7 @@ void Node::serveSdo(News &news) {
   }
   if (sdo_.pending()) // an abort
     return;
-  const ObjectWish wish = loss_ == NodeLoss::None ? drive_.wish() : ObjectWish{};
+  const ObjectWish wish = isDrive() && loss_ == NodeLoss::None ? drive_.wish() : ObjectWish{};
   if (wish.kind != ObjectWish::Kind::None) {
     beginWish(wish);
   } else if (parameters_.wants()) {

@@ -41,6 +41,8 @@ public:
   void beginReceive();
   /// … and after them: judges what has come. `syncs`: that there have been since the last time.
   void endReceive(uint32_t syncs, News &news);
+  /// All its synchronous TPDOs of the cycle have come.
+  [[nodiscard]] bool pdosComplete() const;
   /// Makes the RPDOs of the cycle.
   void makePdos();
 
@@ -76,6 +78,8 @@ public:
   [[nodiscard]] const EmcyRing &emcyRing() const { return emcy_; }
   [[nodiscard]] const NodeConfig &config() const { return config_; }
   [[nodiscard]] uint8_t number() const { return config_.plan.node; }
+  /// As its last PDO says.
+  [[nodiscard]] uint32_t signal(Signal signal) const { return signals_.get(signal); }
 
 private:
   enum class Phase : uint8_t { Idle, Starting, Started, Failed };
@@ -91,6 +95,8 @@ private:
   };
 
   void watch(News &news);
+  void watchDrive(News &news);
+  [[nodiscard]] bool isDrive() const { return config_.kind == NodeConfig::Kind::Drive; }
   void countPdos(uint32_t syncs);
   void started(News &news);
   void serveSdo(News &news);

@@ -14,13 +14,15 @@ namespace stride::can {
 struct NodeConfig {
   enum class Kind : uint8_t {
     Drive,
+    Encoder,    ///< CiA 406.
     SyncDevice, ///< It gives SYNC and nothing else.
   };
   enum class Reset : uint8_t { Communication, Node, None };
   static constexpr size_t kIdentity = 4;
 
   Kind kind = Kind::Drive;
-  DrivePlan plan; ///< With the number of the node.
+  DrivePlan plan;             ///< With the number of the node.
+  uint32_t encoderModulo = 0; ///< What an encoder counts to; 0: 2^32.
   DriveConfig drive;
   double cycle = 0.001; ///< [s]
   Reset reset = Reset::Communication;

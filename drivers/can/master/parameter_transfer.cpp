@@ -61,14 +61,13 @@ bool fitsRaw(uint32_t raw, size_t size) {
 } // namespace
 
 std::optional<Object> objectOfParameter(int32_t number) {
-  constexpr int64_t kMost = 0xFFFFFF;
-  const int64_t place = -int64_t{number};
-  if (place <= 0 || place > kMost)
+  constexpr int32_t kMost = 0xFFFFFF;
+  if (number <= 0 || number > kMost)
     return std::nullopt;
-  return Object{static_cast<uint16_t>(place >> 8), static_cast<uint8_t>(place & 0xFF)};
+  return Object{static_cast<uint16_t>(number >> 8), static_cast<uint8_t>(number & 0xFF)};
 }
 
-int32_t parameterOf(Object object) { return -(object.index * 256 + object.sub); }
+int32_t parameterOf(Object object) { return object.index * 256 + object.sub; }
 
 ParameterTransfer::ParameterTransfer(std::span<const SdoWrite> listed) {
   listed_.reserve(listed.size());

@@ -1,5 +1,5 @@
-// Questions of programs for objects of a drive: MC_ReadParameter and MC_WriteParameter with
-// negative numbers, -(index * 256 + subindex).
+// Questions of programs for objects of a drive, whose numbers are index * 256 + subindex: with a
+// minus sign before, those of MC_ReadParameter and MC_WriteParameter.
 #ifndef STRIDE_DRIVERS_CAN_MASTER_PARAMETER_TRANSFER_HPP
 #define STRIDE_DRIVERS_CAN_MASTER_PARAMETER_TRANSFER_HPP
 

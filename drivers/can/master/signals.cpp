@@ -15,6 +15,9 @@ uint64_t wordOf(const Frame &frame) {
 
 uint64_t mask(uint32_t bits) { return bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1; }
 
+/// By the drive: what it may show of set values is the master's own.
+bool isTold(Signal signal) { return signal >= Signal::Statusword && signal != Signal::Other; }
+
 bool fits(const PdoEntry &entry, uint32_t place) {
   return entry.bits > 0 && entry.bits <= kSignalBits && place + entry.bits <= kMostPdoBits;
 }
@@ -43,7 +46,7 @@ bool decode(const Pdo &pdo, const Frame &frame, Signals &signals) {
   uint32_t place = 0;
   for (const PdoEntry &entry : pdo.mapped()) {
     const Signal signal = signalOf(entry.object);
-    if (signal != Signal::Other && fits(entry, place)) {
+    if (isTold(signal) && fits(entry, place)) {
       uint64_t value = word >> place & mask(entry.bits);
       if (objectOf(signal).isSigned && (value >> (entry.bits - 1U) & 1U) != 0)
         value |= ~mask(entry.bits);

@@ -75,6 +75,10 @@ void addChecks(List &list, const NodeConfig &config) {
     if (config.identity[i] != 0)
       list.add(StartOp::Identity, kIdentityStep,
                {{object::kIdentity, static_cast<uint8_t>(i + 1)}, 4, config.identity[i]});
+  if (config.kind == NodeConfig::Kind::Encoder) {
+    list.add(StartOp::EncoderRange, kIdentityStep, optional(object::kEncoderRange));
+    return;
+  }
   list.add(StartOp::SupportedModes, kIdentityStep, optional(object::kSupportedModes));
   constexpr uint8_t kTorque = cyclic::kTorque;
   if (((config.plan.sent | config.plan.received) & kTorque) != 0 && config.drive.torqueRated == 0)
@@ -148,21 +152,23 @@ bool isExactPeriod(double seconds) { return periodOf(seconds).exact; }
 std::vector<StartStep> startSteps(const NodeConfig &config) {
   List list;
   const bool drive = config.kind == NodeConfig::Kind::Drive;
+  const bool encoder = config.kind == NodeConfig::Kind::Encoder;
   list.add(StartOp::Reset, kResetting);
   if (config.reset != NodeConfig::Reset::None)
     list.add(StartOp::BootUp, kResetting);
-  if (drive) {
+  if (drive || encoder) {
     addChecks(list, config);
     addConfiguration(list, config);
-    addModes(list, config);
+    if (drive)
+      addModes(list, config);
     addSupervision(list, config);
   }
   list.add(StartOp::Start, kStartStep);
-  if (drive)
+  if (drive || encoder)
     list.add(StartOp::Operational, kStartStep);
   if (config.producesSync)
     addSync(list, config);
-  if (drive)
+  if (drive || encoder)
     list.add(StartOp::FirstPdo, kPdoStep);
   return list.take();
 }

@@ -10,7 +10,21 @@ namespace {
 
 constexpr double kPatience = 2;             // s
 constexpr uint8_t kAfterConfiguration = 60; // the progress of what comes then
-constexpr uint32_t kCia402 = 0x0192;
+
+/// What a node must be.
+struct ProfileRow {
+  NodeConfig::Kind kind;
+  uint32_t profile;
+  std::string_view number; ///< … as 1000h shows it.
+  std::string_view text;
+};
+constexpr std::array<ProfileRow, 2> kProfiles = {
+    {{NodeConfig::Kind::Drive, 402, "0192", " is no drive of CiA 402"},
+     {NodeConfig::Kind::Encoder, 406, "0196", " is no encoder of CiA 406"}}};
+const ProfileRow &profileOf(NodeConfig::Kind kind) {
+  return *std::find_if(kProfiles.begin(), kProfiles.end() - 1,
+                       [kind](const ProfileRow &row) { return row.kind == kind; });
+}
 
 /// How a step is made.
 enum class Manner : uint8_t {
@@ -22,18 +36,18 @@ struct OpRow {
   StartOp op;
   Manner manner;
 };
-constexpr std::array<OpRow, 21> kOps = {{
+constexpr std::array<OpRow, 22> kOps = {{
     {StartOp::Reset, Manner::Act},           {StartOp::BootUp, Manner::Act},
     {StartOp::DeviceType, Manner::Read},     {StartOp::Identity, Manner::Read},
     {StartOp::SupportedModes, Manner::Read}, {StartOp::RatedTorque, Manner::Read},
     {StartOp::RatedCurrent, Manner::Read},   {StartOp::HomeOffset, Manner::Read},
     {StartOp::RangeLow, Manner::Read},       {StartOp::RangeHigh, Manner::Read},
-    {StartOp::StampDate, Manner::Read},      {StartOp::StampTime, Manner::Read},
-    {StartOp::NoRemote, Manner::Read},       {StartOp::Write, Manner::Write},
-    {StartOp::WriteConsumer, Manner::Write}, {StartOp::WriteMode, Manner::Write},
-    {StartOp::ReadMode, Manner::Read},       {StartOp::Supervise, Manner::Act},
-    {StartOp::Start, Manner::Act},           {StartOp::Operational, Manner::Act},
-    {StartOp::FirstPdo, Manner::Act},
+    {StartOp::EncoderRange, Manner::Read},   {StartOp::StampDate, Manner::Read},
+    {StartOp::StampTime, Manner::Read},      {StartOp::NoRemote, Manner::Read},
+    {StartOp::Write, Manner::Write},         {StartOp::WriteConsumer, Manner::Write},
+    {StartOp::WriteMode, Manner::Write},     {StartOp::ReadMode, Manner::Read},
+    {StartOp::Supervise, Manner::Act},       {StartOp::Start, Manner::Act},
+    {StartOp::Operational, Manner::Act},     {StartOp::FirstPdo, Manner::Act},
 }};
 constexpr bool opsAreInOrder() {
   for (size_t i = 0; i < kOps.size(); ++i)
@@ -262,12 +276,15 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
   return Outcome::Failed;
 }
 
-StartUp::Outcome StartUp::checkType(uint32_t value, bus::Message &message) const {
+StartUp::Outcome StartUp::checkType(const NodeConfig &config, uint32_t value,
+                                    bus::Message &message) const {
   constexpr uint32_t kProfile = 0xFFFF;
-  if ((value & kProfile) == kCia402)
+  const ProfileRow &row = profileOf(config.kind);
+  if ((value & kProfile) == row.profile)
     return Outcome::Next;
-  message.set("node ", uint32_t{node_}, " is no drive of CiA 402: its device type (",
-              ObjectText(object::kDeviceType), ") is ", HexText(value, 8), " and not 16#....0192");
+  message.set("node ", uint32_t{node_}, row.text, ": its device type (",
+              ObjectText(object::kDeviceType), ") is ", HexText(value, 8), " and not 16#....",
+              row.number);
   return Outcome::Failed;
 }
 
@@ -290,6 +307,18 @@ StartUp::Outcome StartUp::checkRange(uint32_t value, bus::Message &message) cons
   message.set("node ", uint32_t{node_},
               " limits the range of positions (16#607B: ", HexText(rangeLow_, 8), " to ",
               HexText(value, 8), "): it must be off (both 0) or all 32 bits");
+  return Outcome::Failed;
+}
+
+/// Where an encoder wraps, or its position would jump there.
+StartUp::Outcome StartUp::checkEncoder(const NodeConfig &config, uint32_t value,
+                                       bus::Message &message) const {
+  const bool whole = value == 0 || value == UINT32_MAX;
+  if (value == config.encoderModulo || (whole && config.encoderModulo == 0))
+    return Outcome::Next;
+  message.set("node ", uint32_t{node_}, " counts to ", value, " (",
+              ObjectText(object::kEncoderRange), "): dwEncoderModulo must be that, and is ",
+              config.encoderModulo);
   return Outcome::Failed;
 }
 
@@ -317,7 +346,7 @@ StartUp::Outcome StartUp::taken(const StartParts &parts, uint32_t value, bus::Me
   DriveFacts &facts = parts.facts;
   switch (now().op) {
   case StartOp::DeviceType:
-    return checkType(value, message);
+    return checkType(parts.config, value, message);
   case StartOp::Identity:
     return checkIdentity(value, message);
   case StartOp::SupportedModes:
@@ -337,6 +366,8 @@ StartUp::Outcome StartUp::taken(const StartParts &parts, uint32_t value, bus::Me
     break;
   case StartOp::RangeHigh:
     return checkRange(value, message);
+  case StartOp::EncoderRange:
+    return checkEncoder(parts.config, value, message);
   case StartOp::StampDate:
     stampFits_ = value == now().object.value;
     break;

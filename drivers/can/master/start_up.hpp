@@ -17,7 +17,7 @@ namespace stride::can {
 enum class StartOp : uint8_t {
   Reset,          ///< By NMT.
   BootUp,         ///< Until its message comes, or so long that it must be there.
-  DeviceType,     ///< It must be a drive of CiA 402.
+  DeviceType,     ///< It must be of the profile that the kind of the node has.
   Identity,       ///< It must be what the configuration says.
   SupportedModes, ///< …
   RatedTorque,
@@ -25,7 +25,8 @@ enum class StartOp : uint8_t {
   HomeOffset,
   RangeLow, ///< Positions must go round at 2^32.
   RangeHigh,
-  StampDate, ///< If the node has this configuration already, it is left out.
+  EncoderRange, ///< It must count as far as the configuration says.
+  StampDate,    ///< If the node has this configuration already, it is left out.
   StampTime,
   NoRemote, ///< Bit 30 of a TPDO stays as it is.
   Write,
@@ -85,7 +86,8 @@ private:
   Outcome taken(const StartParts &parts, uint32_t value, bus::Message &message);
   Outcome awaitBootUp(const StartParts &parts);
   Outcome awaitMode(const StartParts &parts, uint32_t value, bus::Message &message);
-  Outcome checkType(uint32_t value, bus::Message &message) const;
+  Outcome checkType(const NodeConfig &config, uint32_t value, bus::Message &message) const;
+  Outcome checkEncoder(const NodeConfig &config, uint32_t value, bus::Message &message) const;
   Outcome checkIdentity(uint32_t value, bus::Message &message) const;
   Outcome checkRange(uint32_t value, bus::Message &message) const;
   Outcome await(bool there, std::string_view text, bus::Message &message);

@@ -9,7 +9,8 @@ constexpr uint32_t kUsualBitRate = 1000;
 constexpr double kLongestCycle = 4e9; // µs
 
 /// What a drive of that section exchanges in every cycle.
-DriveWish driveWish(uint32_t node, const bus::SetupParameters &given) {
+DriveWish driveWish(uint32_t node, const bus::SetupParameters &given,
+                    const DriveSettings &settings) {
   DriveWish wish;
   wish.node = node <= kLastNode ? static_cast<uint8_t>(node) : uint8_t{0};
   wish.controlType = static_cast<uint8_t>(given.number("wControlType"));
@@ -22,12 +23,14 @@ DriveWish driveWish(uint32_t node, const bus::SetupParameters &given) {
   wish.eventPdos = given.flag("event_pdos");
   wish.inputs = given.flag("inputs");
   wish.probeInputs = static_cast<uint8_t>(given.number("probe_inputs"));
+  wish.rpdos = settings.rpdos;
+  wish.tpdos = settings.tpdos;
   return wish;
 }
 
 /// Why a drive cannot be started at all.
-std::string faultOf(const PlanResult &plan, uint32_t id, const bus::GroupSetup &setup,
-                    bool hasSyncDevice) {
+std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint32_t id,
+                    const bus::GroupSetup &setup, bool hasSyncDevice) {
   if (id == 0 || id > kLastNode)
     return "wDriveId is its node id: 1 to 127";
   const auto own = static_cast<uint32_t>(setup.busParameters.number("node_id"));
@@ -38,6 +41,8 @@ std::string faultOf(const PlanResult &plan, uint32_t id, const bus::GroupSetup &
   if (std::count_if(setup.drives.begin(), setup.drives.end(),
                     [id](const bus::DriveSetup &drive) { return drive.id == id; }) > 1)
     return "another drive has the same wDriveId";
+  if (!settings.errors.empty())
+    return settings.errors.front();
   for (const PlanNote note : plan.notes)
     if (isError(note))
       return std::string(describe(note));
@@ -62,6 +67,16 @@ void checkLoad(const GroupPlan &plan, bus::GroupFindings &findings) {
 
 } // namespace
 
+size_t driveNamed(const bus::GroupSetup &setup, std::string_view name) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  const auto found =
+      std::find_if(setup.drives.begin(), setup.drives.end(), [&](const bus::DriveSetup &drive) {
+        return std::equal(drive.name.begin(), drive.name.end(), name.begin(), name.end(),
+                          [&](char a, char b) { return lower(a) == lower(b); });
+      });
+  return static_cast<size_t>(found - setup.drives.begin());
+}
+
 std::string milliseconds(uint32_t us) {
   std::string text = std::to_string(us / 1000);
   if (us % 1000 != 0) {
@@ -78,6 +93,67 @@ std::string percent(double share) {
   return std::to_string(whole / 10) + "." + std::to_string(whole % 10) + " %";
 }
 
+namespace {
+
+/// Why an encoder that is a node cannot be read.
+std::string encoderFault(uint32_t id, const bus::GroupSetup &setup, bool hasSyncDevice) {
+  if (id == 0 || id > kLastNode)
+    return "wEncoderId is its node id: 1 to 127";
+  if (id == static_cast<uint32_t>(setup.busParameters.number("node_id")))
+    return "its node id is the master's own (node_id)";
+  if (hasSyncDevice && id == kSyncDevice)
+    return "its node id is that of the SYNC device";
+  if (std::any_of(setup.drives.begin(), setup.drives.end(),
+                  [id](const bus::DriveSetup &drive) { return drive.id == id; }))
+    return "a drive has its node id";
+  if (std::count_if(setup.encoders.begin(), setup.encoders.end(),
+                    [id](const bus::EncoderSetup &one) {
+                      return one.id == id && one.parameters.text("second_of").empty();
+                    }) > 1)
+    return "another encoder has the same wEncoderId";
+  return {};
+}
+
+std::vector<EncoderPlan> planEncoders(const bus::GroupSetup &setup, SyncProducer sync) {
+  std::vector<EncoderPlan> encoders;
+  for (const bus::EncoderSetup &encoder : setup.encoders) {
+    EncoderPlan &one = encoders.emplace_back();
+    if (const std::string drive = encoder.parameters.text("second_of"); !drive.empty()) {
+      one.drive = driveNamed(setup, drive);
+      if (one.drive == setup.drives.size())
+        one.fault = "its drive is not in this axis group";
+      continue;
+    }
+    one.fault = encoderFault(encoder.id, setup, sync == SyncProducer::Device);
+    if (one.fault.empty())
+      one.plan = planEncoder(static_cast<uint8_t>(encoder.id));
+  }
+  return encoders;
+}
+
+void checkReadWait(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
+  const double wait = setup.busParameters.number("read_wait");
+  if (!(wait >= setup.cycleSeconds) || setup.cycleSeconds <= 0)
+    return;
+  findings.push_back({true, bus::GroupFinding::kGroup,
+                      "`read_wait` leaves no time of the cycle for the programs",
+                      "its task has a cycle of " +
+                          milliseconds(static_cast<uint32_t>(setup.cycleSeconds * 1e6 + 0.5)),
+                      "take half of the cycle at most"});
+}
+
+void checkEncoders(const bus::GroupSetup &setup, const GroupPlan &plan,
+                   bus::GroupFindings &findings) {
+  for (size_t i = 0; i < plan.encoders.size(); ++i)
+    if (!plan.encoders[i].fault.empty())
+      findings.push_back({true, bus::GroupFinding::kGroup,
+                          "encoder `" + setup.encoders[i].name +
+                              "` cannot be on a CAN bus so: " + plan.encoders[i].fault,
+                          "its encoder cannot be served", ""});
+}
+
+} // namespace
+
 GroupPlan planGroup(const bus::GroupSetup &setup) {
   GroupPlan result;
   result.sync =
@@ -86,11 +162,23 @@ GroupPlan planGroup(const bus::GroupSetup &setup) {
   result.bitRate = rate == 0 ? kUsualBitRate : rate;
   result.cycle =
       static_cast<uint32_t>(std::clamp(setup.cycleSeconds * 1e6 + 0.5, 1.0, kLongestCycle));
+  result.encoders = planEncoders(setup, result.sync);
   std::vector<DrivePlan> plans;
+  for (const EncoderPlan &encoder : result.encoders)
+    if (encoder.plan.node != 0)
+      plans.push_back(encoder.plan);
   for (const bus::DriveSetup &drive : setup.drives) {
-    result.drives.push_back(planDrive(driveWish(drive.id, drive.parameters)));
-    result.faults.push_back(
-        faultOf(result.drives.back(), drive.id, setup, result.sync == SyncProducer::Device));
+    const auto node = static_cast<uint8_t>(std::min<uint32_t>(drive.id, kLastNode));
+    result.settings.push_back(driveSettings(node, drive.parameters));
+    const DriveSettings &settings = result.settings.back();
+    DriveWish wish = driveWish(drive.id, drive.parameters, settings);
+    const size_t place = result.drives.size();
+    wish.secondEncoder =
+        std::any_of(result.encoders.begin(), result.encoders.end(),
+                    [place](const EncoderPlan &encoder) { return encoder.drive == place; });
+    result.drives.push_back(planDrive(wish));
+    result.faults.push_back(faultOf(result.drives.back(), settings, drive.id, setup,
+                                    result.sync == SyncProducer::Device));
     if (result.faults.back().empty())
       plans.push_back(result.drives.back().plan);
   }
@@ -102,15 +190,20 @@ void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
   const GroupPlan plan = planGroup(setup);
   for (size_t i = 0; i < plan.drives.size(); ++i) {
     const std::string drive = "drive `" + setup.drives[i].name + "`";
-    if (!plan.faults[i].empty()) {
+    const std::vector<std::string> &errors = plan.settings[i].errors;
+    for (const std::string &error : errors)
+      findings.push_back({true, i, drive + ": " + error, "cannot be served", ""});
+    if (!plan.faults[i].empty() && errors.empty())
       findings.push_back({true, i, drive + " cannot be on a CAN bus so: " + plan.faults[i],
                           "cannot be served", ""});
+    if (!plan.faults[i].empty())
       continue;
-    }
     for (const PlanNote note : plan.drives[i].notes)
       findings.push_back(
           {false, i, drive + ": " + std::string(describe(note)), "served without it", ""});
   }
+  checkEncoders(setup, plan, findings);
+  checkReadWait(setup, findings);
   checkLoad(plan, findings);
 }
 

@@ -4,12 +4,14 @@
 #define STRIDE_DRIVERS_CAN_PLAN_GROUP_PLAN_HPP
 
 #include "drivers/can/plan/bus_load.hpp"
+#include "drivers/can/plan/drive_settings.hpp"
 #include "drivers/can/plan/pdo_plan.hpp"
 #include "runtime/bus/group_check.hpp"
 #include "runtime/bus/group_setup.hpp"
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stride::can {
@@ -20,12 +22,23 @@ enum class SyncProducer : uint8_t { Master = 0, FirstDrive = 1, Device = 2 };
 /// The node of the SYNC device.
 inline constexpr uint8_t kSyncDevice = 127;
 
+/// An encoder of the group: a node, or the second encoder of a drive.
+struct EncoderPlan {
+  static constexpr size_t kNode = static_cast<size_t>(-1);
+
+  DrivePlan plan;
+  size_t drive = kNode; ///< Whose second encoder it is.
+  std::string fault;    ///< Why it cannot be read; empty: nothing.
+};
+
 struct GroupPlan {
   SyncProducer sync = SyncProducer::Master;
   uint32_t bitRate = 1000; ///< [kBit/s]
   uint32_t cycle = 0;      ///< [µs]
   std::vector<PlanResult> drives;
-  std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
+  std::vector<DriveSettings> settings; ///< Of each drive.
+  std::vector<std::string> faults;     ///< Of each drive: why it cannot start; empty: nothing.
+  std::vector<EncoderPlan> encoders;
   BusLoad load;
 };
 
@@ -37,6 +50,9 @@ void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings);
 /// PDOs, their bits and the share of the bus, as text, and a concise DCF for each drive
 /// (DriverSchema::plan).
 bus::GroupPlanText describeGroup(const bus::GroupSetup &setup);
+
+/// The place of a drive in the group; their number: there is none of that name.
+size_t driveNamed(const bus::GroupSetup &setup, std::string_view name);
 
 /// "1.5 ms", "21.7 %".
 std::string milliseconds(uint32_t us);

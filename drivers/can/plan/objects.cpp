@@ -57,17 +57,12 @@ static_assert(tableIsInOrder());
 
 std::string_view nameOf(Signal signal) {
   static constexpr std::array<std::string_view, kSignals> kSignalNames = {
-      "controlword",     "mode of operation",
-      "target position", "velocity offset",
-      "target velocity", "target torque",
-      "probe function",  "statusword",
-      "mode display",    "position",
-      "velocity",        "torque",
-      "current",         "following error",
-      "error code",      "inputs",
-      "probe status",    "probe 1 rising",
-      "probe 1 falling", "probe 2 rising",
-      "probe 2 falling", ""};
+      "controlword",     "mode of operation", "target position",  "velocity offset",
+      "target velocity", "target torque",     "probe function",   "statusword",
+      "mode display",    "position",          "velocity",         "torque",
+      "current",         "following error",   "error code",       "inputs",
+      "probe status",    "probe 1 rising",    "probe 1 falling",  "probe 2 rising",
+      "probe 2 falling", "second position",   "encoder position", ""};
   return kSignalNames[static_cast<size_t>(signal)];
 }
 

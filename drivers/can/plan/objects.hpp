@@ -44,6 +44,7 @@ inline constexpr uint16_t kInterpolationPeriod = 0x60C2;
 inline constexpr uint16_t kProbeValues = 0x60BA; ///< Four objects from here.
 inline constexpr Object kTargetVelocity = {0x60FF, 0};
 inline constexpr Object kSupportedModes = {0x6502, 0};
+inline constexpr Object kEncoderRange = {0x6002, 0};
 
 } // namespace object
 
@@ -70,7 +71,9 @@ enum class Signal : uint8_t {
   Probe1Falling,
   Probe2Rising,
   Probe2Falling,
-  Other, ///< It means nothing to the master.
+  SecondPosition,  ///< Of a second encoder of the drive.
+  EncoderPosition, ///< Of an encoder. [CiA 406]
+  Other,           ///< It means nothing to the master.
 };
 inline constexpr size_t kSignals = static_cast<size_t>(Signal::Other) + 1;
 
@@ -85,7 +88,7 @@ struct SignalObject {
   bool isSigned;
 };
 
-inline constexpr std::array<SignalObject, 21> kSignalObjects = {{
+inline constexpr std::array<SignalObject, 23> kSignalObjects = {{
     {Signal::Controlword, {0x6040, 0}, 16, false},
     {Signal::Mode, {0x6060, 0}, 8, true},
     {Signal::TargetPosition, {0x607A, 0}, 32, true},
@@ -107,6 +110,8 @@ inline constexpr std::array<SignalObject, 21> kSignalObjects = {{
     {Signal::Probe1Falling, {0x60BB, 0}, 32, true},
     {Signal::Probe2Rising, {0x60BC, 0}, 32, true},
     {Signal::Probe2Falling, {0x60BD, 0}, 32, true},
+    {Signal::SecondPosition, {0x60E4, 1}, 32, true},
+    {Signal::EncoderPosition, {0x6004, 0}, 32, false},
 }};
 
 /// The row of a signal; `signal` is not Other.
@@ -137,6 +142,7 @@ inline constexpr uint16_t kSyncCobId = 0x080;
 inline constexpr uint16_t kEmcyBase = 0x080;
 inline constexpr uint16_t kTpdoBase = 0x180; ///< The next PDO 100h further.
 inline constexpr uint16_t kRpdoBase = 0x200; ///< The same.
+inline constexpr uint16_t kNextPdo = 0x100;
 inline constexpr uint16_t kSdoAnswerBase = 0x580;
 inline constexpr uint16_t kSdoRequestBase = 0x600;
 inline constexpr uint16_t kHeartbeatBase = 0x700;

@@ -10,8 +10,6 @@ using cyclic::kPosition;
 using cyclic::kTorque;
 using cyclic::kVelocity;
 
-constexpr uint32_t kMostBits = 8 * Frame::kMostBytes;
-constexpr uint16_t kNextPdo = 0x100;
 /// PDOs by event come at least so often: a lost one is not lost for good. [ms]
 constexpr uint16_t kEventTimer = 100;
 
@@ -100,7 +98,7 @@ public:
 
 private:
   static bool hasRoom(const Pdo &pdo, std::span<const PdoEntry> entries) {
-    return pdo.bits() + bitsOf(entries) <= kMostBits &&
+    return pdo.bits() + bitsOf(entries) <= Pdo::kMostBits &&
            pdo.count + entries.size() <= Pdo::kMostEntries;
   }
   Pdo *begin(uint8_t transmission) {
@@ -136,7 +134,7 @@ void fill(Filler &filler, const Direction &direction, const DriveWish &wish) {
   constexpr uint8_t kSync = 1;
   const uint32_t modeBits = wish.modeInPdo ? direction.mode.bits : 0U;
   const uint32_t valueBits = bitsOf(direction.values);
-  const bool together = direction.word.bits + modeBits + valueBits <= kMostBits;
+  const bool together = direction.word.bits + modeBits + valueBits <= Pdo::kMostBits;
   if (together || !wish.eventPdos) {
     filler.add(direction.word, kSync);
     if (wish.modeInPdo)
@@ -189,14 +187,15 @@ uint8_t modesOf(uint8_t sent) {
   return modes;
 }
 
+uint8_t kindOf(const DriveWish &wish) { return wish.eventPdos ? Pdo::kByEvent : uint8_t{1}; }
+
 /// What is seen now and then only.
-void fillExtras(Filler &rpdos, Filler &tpdos, const DriveWish &wish) {
-  const uint8_t kind = wish.eventPdos ? Pdo::kByEvent : uint8_t{1};
+void fillExtras(Filler &tpdos, const DriveWish &wish) {
+  const uint8_t kind = kindOf(wish);
   if (wish.inputs)
     tpdos.add(entry(Signal::Inputs), kind);
   if (wish.probeInputs == 0)
     return;
-  rpdos.add(entry(Signal::ProbeFunction), kind);
   std::vector<PdoEntry> status = {entry(Signal::ProbeStatus)};
   // A latched position is valid in the frame that says so; further ones are asked for.
   for (unsigned input = 0; input < 4; ++input)
@@ -206,39 +205,121 @@ void fillExtras(Filler &rpdos, Filler &tpdos, const DriveWish &wish) {
   tpdos.add(status, kind);
 }
 
+/// The object, or one that stands for the same, is in one of them.
+bool has(std::span<const Pdo> pdos, Signal signal) {
+  return std::any_of(pdos.begin(), pdos.end(), [signal](const Pdo &pdo) {
+    return std::any_of(pdo.mapped().begin(), pdo.mapped().end(),
+                       [signal](const PdoEntry &one) { return signalOf(one.object) == signal; });
+  });
+}
+
+/// Cyclic values of PDOs that are given as they are.
+struct CarrierRow {
+  Signal signal;
+  uint8_t bit;
+};
+constexpr std::array<CarrierRow, 4> kSetCarriers = {{{Signal::TargetPosition, kPosition},
+                                                     {Signal::VelocityOffset, kVelocity},
+                                                     {Signal::TargetVelocity, kVelocity},
+                                                     {Signal::TargetTorque, kTorque}}};
+constexpr std::array<CarrierRow, 4> kActualCarriers = {{{Signal::Position, kPosition},
+                                                        {Signal::Velocity, kVelocity},
+                                                        {Signal::Torque, kTorque},
+                                                        {Signal::Current, kCurrent}}};
+
+uint8_t valuesIn(std::span<const Pdo> pdos, std::span<const CarrierRow> carriers) {
+  uint8_t bits = 0;
+  for (const CarrierRow &one : carriers)
+    if (has(pdos, one.signal))
+      bits = bits | one.bit;
+  return bits;
+}
+
+/// Filled up places of a PDO (0001h … 0007h) are nobody's values.
+bool isGap(Object object) { return object.index <= 0x0007; }
+
+void takeOwn(std::span<const Pdo> own, std::array<Pdo, DrivePlan::kMostPdos> &pdos,
+             uint8_t &count) {
+  for (const Pdo &pdo : own.first(std::min(own.size(), pdos.size())))
+    pdos[count++] = pdo;
+}
+
+void takeOwnRpdos(const DriveWish &wish, PlanResult &result) {
+  DrivePlan &plan = result.plan;
+  takeOwn(wish.rpdos, plan.rpdos, plan.rpdoCount);
+  const uint8_t carried = valuesIn(wish.rpdos, kSetCarriers);
+  if ((plan.sent & ~carried) != 0)
+    note(result.notes, PlanNote::SetValueNotMapped);
+  plan.sent = carried;
+  if (!has(wish.rpdos, Signal::Controlword))
+    note(result.notes, PlanNote::NoControlword);
+  for (const Pdo &pdo : wish.rpdos)
+    for (const PdoEntry &one : pdo.mapped())
+      if (signalOf(one.object) == Signal::Other && !isGap(one.object))
+        note(result.notes, PlanNote::NobodySets);
+}
+
+void takeOwnTpdos(const DriveWish &wish, PlanResult &result) {
+  DrivePlan &plan = result.plan;
+  takeOwn(wish.tpdos, plan.tpdos, plan.tpdoCount);
+  const uint8_t carried = valuesIn(wish.tpdos, kActualCarriers);
+  if ((plan.received & ~carried) != 0)
+    note(result.notes, PlanNote::ActualValueNotMapped);
+  plan.received = carried;
+  if (!has(wish.tpdos, Signal::Statusword))
+    note(result.notes, PlanNote::NoStatusword);
+  if (wish.secondEncoder && !has(wish.tpdos, Signal::SecondPosition))
+    note(result.notes, PlanNote::SecondEncoderNotMapped);
+  if (wish.inputs && !has(wish.tpdos, Signal::Inputs))
+    note(result.notes, PlanNote::InputsNotMapped);
+}
+
+/// Both directions are of use together only.
+void checkProbes(const DriveWish &wish, PlanResult &result) {
+  const bool own = !wish.rpdos.empty() || !wish.tpdos.empty();
+  if (own && wish.probeInputs != 0 &&
+      !(has(result.plan.receivedByDrive(), Signal::ProbeFunction) &&
+        has(result.plan.sentByDrive(), Signal::ProbeStatus)))
+    note(result.notes, PlanNote::ProbesNotMapped);
+}
+
 } // namespace
 
 uint32_t Pdo::bits() const { return bitsOf(mapped()); }
 
 bool DrivePlan::carries(Signal signal) const {
-  const auto has = [signal](const Pdo &pdo) {
-    return std::any_of(pdo.mapped().begin(), pdo.mapped().end(),
-                       [signal](const PdoEntry &one) { return signalOf(one.object) == signal; });
-  };
-  return std::any_of(receivedByDrive().begin(), receivedByDrive().end(), has) ||
-         std::any_of(sentByDrive().begin(), sentByDrive().end(), has);
+  return has(receivedByDrive(), signal) || has(sentByDrive(), signal);
 }
 
 bool isError(PlanNote note) { return note >= PlanNote::UnknownControlType; }
 
 std::string_view describe(PlanNote note) {
-  static constexpr std::array<std::string_view, 6> kTexts = {
+  static constexpr std::array<std::string_view, 14> kTexts = {
       "set currents have no standard object on CAN: SetCurrent is not sent",
       "user-defined cyclic data needs a PDO of its own: it is not sent",
       "unknown cyclic data is not sent",
+      "a set value of its wControlType is in none of its own RPDOs",
+      "an actual value of its wControlType is in none of its own TPDOs",
+      "its second encoder (60E4h:1) is in none of its own TPDOs",
+      "its inputs (60FDh) are in none of its own TPDOs",
+      "its touch probes (60B8h in an RPDO, 60B9h in a TPDO) are not in its own PDOs",
+      "its own RPDOs have objects that are no set values: they are sent as 0",
       "unknown wControlType",
       "no set value is sent to the drive: choose one in wCyclicDataS1",
       "more than four PDOs in one direction",
+      "none of its own RPDOs has the controlword (6040h)",
+      "none of its own TPDOs has the statusword (6041h)",
   };
   return kTexts[static_cast<size_t>(note)];
 }
 
 bool PlanResult::usable() const { return std::none_of(notes.begin(), notes.end(), isError); }
 
-PlanResult planDrive(const DriveWish &wish) {
-  PlanResult result;
+namespace {
+
+/// The values that the control type wants. FALSE: there is no such type.
+bool wantValues(const DriveWish &wish, PlanResult &result) {
   DrivePlan &plan = result.plan;
-  plan.node = wish.node;
   if (wish.controlType == 0) {
     plan.sent = dataBits(wish.send, kSendRows, result.notes);
     plan.received = dataBits(wish.receive, kReceiveRows, result.notes);
@@ -248,7 +329,7 @@ PlanResult planDrive(const DriveWish &wish) {
                      [&](const ControlRow &one) { return one.type == wish.controlType; });
     if (row == kControlRows.end()) {
       result.notes.push_back(PlanNote::UnknownControlType);
-      return result;
+      return false;
     }
     plan.sent = row->sent;
     plan.received = row->received;
@@ -257,18 +338,64 @@ PlanResult planDrive(const DriveWish &wish) {
     note(result.notes, PlanNote::CurrentNotSent);
     plan.sent = static_cast<uint8_t>(plan.sent & ~kCurrent);
   }
-  plan.controllerModes = modesOf(plan.sent);
-  if (plan.sent == 0)
-    note(result.notes, PlanNote::NothingSent);
-  Filler rpdos(plan.rpdos, plan.rpdoCount, kRpdoBase, wish.node, false);
-  Filler tpdos(plan.tpdos, plan.tpdoCount, kTpdoBase, wish.node, true);
-  fill(rpdos, {entry(Signal::Controlword), entry(Signal::Mode), setValues(plan.sent)}, wish);
-  fill(tpdos, {entry(Signal::Statusword), entry(Signal::ModeDisplay), actualValues(plan.received)},
-       wish);
-  fillExtras(rpdos, tpdos, wish);
-  if (rpdos.tooMany() || tpdos.tooMany())
+  return true;
+}
+
+void planRpdos(const DriveWish &wish, PlanResult &result) {
+  DrivePlan &plan = result.plan;
+  if (!wish.rpdos.empty()) {
+    takeOwnRpdos(wish, result);
+    return;
+  }
+  Filler filler(plan.rpdos, plan.rpdoCount, kRpdoBase, wish.node, false);
+  fill(filler, {entry(Signal::Controlword), entry(Signal::Mode), setValues(plan.sent)}, wish);
+  if (wish.probeInputs != 0)
+    filler.add(entry(Signal::ProbeFunction), kindOf(wish));
+  if (filler.tooMany())
     note(result.notes, PlanNote::TooMany);
+}
+
+void planTpdos(const DriveWish &wish, PlanResult &result) {
+  DrivePlan &plan = result.plan;
+  if (!wish.tpdos.empty()) {
+    takeOwnTpdos(wish, result);
+    return;
+  }
+  Filler filler(plan.tpdos, plan.tpdoCount, kTpdoBase, wish.node, true);
+  std::vector<PdoEntry> values = actualValues(plan.received);
+  if (wish.secondEncoder)
+    values.push_back(entry(Signal::SecondPosition));
+  fill(filler, {entry(Signal::Statusword), entry(Signal::ModeDisplay), std::move(values)}, wish);
+  fillExtras(filler, wish);
+  if (filler.tooMany())
+    note(result.notes, PlanNote::TooMany);
+}
+
+} // namespace
+
+PlanResult planDrive(const DriveWish &wish) {
+  PlanResult result;
+  result.plan.node = wish.node;
+  if (!wantValues(wish, result))
+    return result;
+  planRpdos(wish, result);
+  planTpdos(wish, result);
+  checkProbes(wish, result);
+  result.plan.controllerModes = modesOf(result.plan.sent);
+  if (result.plan.sent == 0)
+    note(result.notes, PlanNote::NothingSent);
   return result;
+}
+
+DrivePlan planEncoder(uint8_t node) {
+  constexpr uint8_t kWithSync = 2; // the first one is sent by a timer of the encoder
+  DrivePlan plan;
+  plan.node = node;
+  Pdo &pdo = plan.tpdos[plan.tpdoCount++];
+  pdo.number = kWithSync;
+  pdo.cobId = static_cast<uint16_t>(kTpdoBase + (kWithSync - 1) * kNextPdo + node);
+  pdo.entries[pdo.count++] = entry(Signal::EncoderPosition);
+  return plan;
 }
 
 } // namespace stride::can

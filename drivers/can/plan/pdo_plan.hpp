@@ -37,6 +37,7 @@ struct PdoEntry {
 /// One PDO as it is configured in the drive.
 struct Pdo {
   static constexpr size_t kMostEntries = 8;
+  static constexpr uint32_t kMostBits = 8 * Frame::kMostBytes;
   static constexpr uint8_t kLastSynchronous = 240;
   static constexpr uint8_t kByEvent = 255;
 
@@ -81,20 +82,32 @@ struct DriveWish {
   /// Of CONFIGURABLE: numbers of AXIS_REF's parameters as in wCyclicDataS1 …, 0: none.
   std::array<uint16_t, 3> send{};
   std::array<uint16_t, 3> receive{};
-  bool modeInPdo = false;  ///< 6060h and 6061h are mapped even if they take room in every cycle.
-  bool eventPdos = true;   ///< The drive has PDOs that are sent when something changes.
-  bool inputs = false;     ///< 60FDh is mapped.
-  uint8_t probeInputs = 0; ///< Bit n: input n of DriveStatus latches positions (60B8h, 60B9h).
+  bool modeInPdo = false;     ///< 6060h and 6061h are mapped even if they take room in every cycle.
+  bool eventPdos = true;      ///< The drive has PDOs that are sent when something changes.
+  bool inputs = false;        ///< 60FDh is mapped.
+  bool secondEncoder = false; ///< 60E4h:1 is mapped.
+  uint8_t probeInputs = 0;    ///< Bit n: input n of DriveStatus latches positions (60B8h, 60B9h).
+  /// PDOs of its own in place of those of the plan, by their numbers; empty: the plan's.
+  std::vector<Pdo> rpdos = {};
+  std::vector<Pdo> tpdos = {};
 };
 
 /// What is to be said about a plan.
 enum class PlanNote : uint8_t {
-  CurrentNotSent,     ///< Set currents have no standard object.
-  UserDataNotMapped,  ///< SetUserDef and ActUserDef need a PDO of one's own.
-  UnknownData,        ///< A number that is no cyclic value.
-  UnknownControlType, ///< An error: there is no plan.
-  NothingSent,        ///< An error: no set value.
-  TooMany,            ///< An error: more than four PDOs in a direction.
+  CurrentNotSent,         ///< Set currents have no standard object.
+  UserDataNotMapped,      ///< SetUserDef and ActUserDef need a PDO of one's own.
+  UnknownData,            ///< A number that is no cyclic value.
+  SetValueNotMapped,      ///< Own PDOs lack a set value that the control type has.
+  ActualValueNotMapped,   ///< The same with an actual value.
+  SecondEncoderNotMapped, ///< Own PDOs lack 60E4h:1.
+  InputsNotMapped,        ///< Own PDOs lack 60FDh.
+  ProbesNotMapped,        ///< Own PDOs lack 60B8h or 60B9h.
+  NobodySets,             ///< Own RPDOs have objects that are no set values.
+  UnknownControlType,     ///< An error: there is no plan.
+  NothingSent,            ///< An error: no set value.
+  TooMany,                ///< An error: more than four PDOs in a direction.
+  NoControlword,          ///< An error: of own PDOs.
+  NoStatusword,           ///< The same.
 };
 bool isError(PlanNote note);
 /// For people.
@@ -107,8 +120,11 @@ struct PlanResult {
   [[nodiscard]] bool usable() const;
 };
 
-/// The default plan with the COB-IDs of the predefined connection set.
+/// The default plan, or the drive's own PDOs, with the COB-IDs of the predefined connection set.
 PlanResult planDrive(const DriveWish &wish);
+
+/// The plan of an encoder: its second TPDO, which has the position at SYNC. [CiA 406]
+DrivePlan planEncoder(uint8_t node);
 
 /// A value that is written into the drive.
 struct SdoWrite {

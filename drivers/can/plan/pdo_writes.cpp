@@ -1,5 +1,7 @@
 #include "drivers/can/plan/pdo_plan.hpp"
 
+#include <algorithm>
+
 namespace stride::can {
 namespace {
 
@@ -40,8 +42,10 @@ void configure(std::vector<SdoWrite> &writes, const PdoObjects &objects, const P
 void configureAll(std::vector<SdoWrite> &writes, const PdoObjects &objects,
                   std::span<const Pdo> pdos, uint8_t node) {
   for (size_t place = 0; place < DrivePlan::kMostPdos; ++place) {
-    if (place < pdos.size()) {
-      configure(writes, objects, pdos[place]);
+    const auto pdo = std::find_if(pdos.begin(), pdos.end(),
+                                  [&](const Pdo &one) { return one.number == place + 1; });
+    if (pdo != pdos.end()) {
+      configure(writes, objects, *pdo);
       continue;
     }
     const auto cobId = static_cast<uint32_t>(objects.cobIdBase + place * 0x100 + node);

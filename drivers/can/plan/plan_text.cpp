@@ -58,6 +58,18 @@ void addRows(const Widths &widths, const std::string &drive, const DrivePlan &pl
     add(pdo, "TPDO");
 }
 
+void addStartUp(const Widths &widths, const std::string &drive, uint8_t node,
+                std::span<const SdoWrite> writes, std::string &text) {
+  for (const SdoWrite &write : writes) {
+    std::string content = hexadecimal(write.object.index, 4);
+    if (write.object.sub != 0)
+      content += ":" + std::to_string(write.object.sub);
+    content += " := " + hexadecimal(write.value, size_t{2} * write.size);
+    text += row(widths, drive, std::to_string(node), "SDO", "-", "start",
+                std::to_string(write.size), "-", content);
+  }
+}
+
 std::string_view producerText(SyncProducer producer) {
   switch (producer) {
   case SyncProducer::FirstDrive:
@@ -81,6 +93,8 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
   Widths widths;
   for (const bus::DriveSetup &drive : setup.drives)
     widths.drive = std::max(widths.drive, drive.name.size());
+  for (const bus::EncoderSetup &encoder : setup.encoders)
+    widths.drive = std::max(widths.drive, encoder.name.size());
   text += row(widths, "drive", "node", "PDO", "COB-ID", "when", "bytes", "bits", "content");
   for (size_t i = 0; i < plan.drives.size(); ++i) {
     const std::string &name = setup.drives[i].name;
@@ -89,8 +103,20 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
       continue;
     }
     addRows(widths, name, plan.drives[i].plan, text);
-    const std::vector<uint8_t> dcf = conciseDcf(pdoWrites(plan.drives[i].plan));
+    const std::vector<SdoWrite> &startup = plan.settings[i].startup;
+    addStartUp(widths, name, plan.drives[i].plan.node, startup, text);
+    std::vector<SdoWrite> writes = pdoWrites(plan.drives[i].plan);
+    writes.insert(writes.end(), startup.begin(), startup.end());
+    const std::vector<uint8_t> dcf = conciseDcf(writes);
     result.files.push_back({name + ".cdcf", std::string(dcf.begin(), dcf.end())});
+  }
+  for (size_t i = 0; i < plan.encoders.size(); ++i) {
+    const EncoderPlan &encoder = plan.encoders[i];
+    const std::string &name = setup.encoders[i].name;
+    if (!encoder.fault.empty())
+      text += "  " + wide(name, widths.drive) + encoder.fault + "\n";
+    else if (encoder.drive == EncoderPlan::kNode)
+      addRows(widths, name, encoder.plan, text);
   }
   const uint64_t room = uint64_t{plan.bitRate} * plan.cycle / 1000;
   text += "  " + std::to_string(plan.load.bits) + " of " + std::to_string(room) +

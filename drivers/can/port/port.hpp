@@ -43,6 +43,7 @@ struct PortCounters {
   uint64_t dropped = 0;     ///< Frames that were received and lost, for want of room.
   uint64_t errorFrames = 0; ///< Error frames …
   uint64_t restarts = 0;    ///< … and restarts after BusOff.
+  uint64_t unlogged = 0;    ///< Frames that a log of the port lacks.
 };
 
 /// One CAN interface. Nothing here allocates or throws, and nothing but wait() waits.
@@ -66,6 +67,8 @@ public:
   /// clock; FALSE: nothing has come. For who has nothing else to do: all other calls do not wait.
   /// A port without a clock of its own does not wait either. [ns]
   virtual bool wait(int64_t /*monotonicNs*/) noexcept { return false; }
+  /// Now, by the clock of wait(); negative: it has none. [ns]
+  [[nodiscard]] virtual int64_t monotonicNs() const noexcept { return -1; }
 
   /// Process frames of cycles before this one that have not left the controller yet, as far as the
   /// port sees that. Known after receive().

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace stride::can::simulation {
 
@@ -26,6 +27,8 @@ struct Drive402Setup {
   double ratedTorque = 1;   ///< 6076h. [Nm]
   double velocityScale = 1; ///< Increments per second that a unit of velocity of the drive is.
   double secondEncoder = 1; ///< 60E4h:1: its increments for one of the drive's.
+  /// Objects that it has besides: those of the profile go before them.
+  std::vector<ObjectRow> more{};
 };
 
 /// Its controllers run with SYNC, or by themselves every 60C2h when none comes: a cycle of them is

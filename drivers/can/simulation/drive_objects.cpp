@@ -202,6 +202,7 @@ DeviceRows driveRows(const Drive402Setup &setup) {
   DeviceRows device;
   device.deviceType = kServoDrive;
   const bool torque = setup.drive.mechanics.model == dummy::Model::SecondOrder;
+  device.objects = setup.more; // the last one of several for the same object counts
   addPower(device.objects, supportedModes(torque));
   addPosition(device.objects);
   addVelocityAndTorque(device.objects, setup);

@@ -327,6 +327,8 @@ size_t SocketCanPort::receive(std::span<Received> frames) noexcept {
   return count;
 }
 
+int64_t SocketCanPort::monotonicNs() const noexcept { return monotonicNow(); }
+
 bool SocketCanPort::wait(int64_t monotonicNs) noexcept {
   while (process_ >= 0) {
     const int64_t left = monotonicNs - monotonicNow();

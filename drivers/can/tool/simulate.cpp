@@ -55,6 +55,10 @@ int simulate(const SimulateOptions &options) {
       host.add(*drive, begin);
       ++count;
     }
+  for (const auto &encoder : nodes.encoders) {
+    host.add(*encoder, begin);
+    ++count;
+  }
   if (nodes.syncDevice != nullptr) {
     host.add(*nodes.syncDevice, begin);
     ++count;

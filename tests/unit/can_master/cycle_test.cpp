@@ -93,7 +93,7 @@ protected:
         one.command(i, commands[i]);
     }
     bus::ParameterRequest request;
-    request.number = -0x606400;
+    request.number = 0x606400;
     bus::ParameterAnswer answer;
     if (cycle == 400)
       (void)one.startParameter(0, request);
@@ -136,8 +136,7 @@ TEST_F(Life, TakesNoMemoryAndCanBeRepeated) {
 
   auto owned = std::make_unique<ReplayPort>(life);
   ReplayPort *replay = owned.get();
-  const std::unique_ptr<bus::AxisDriver> again =
-      std::make_unique<CanDriver>(setup, std::move(owned));
+  const auto again = std::make_unique<CanDriver>(setup, std::move(owned));
   SilentHost silent;
   again->attach(silent);
   std::vector<bus::DriveCommand> same(2);

@@ -46,6 +46,7 @@ public:
     arriving.pop_front();
     return true;
   }
+  int64_t monotonicNs() const noexcept override { return clock; }
   ControllerState state() const noexcept override { return controller; }
   size_t unconfirmed() const noexcept override { return late; }
   PortCounters counters() const noexcept override { return portCounters; }
@@ -72,6 +73,7 @@ public:
   ControllerState controller = ControllerState::Active;
   PortCounters portCounters;
   size_t late = 0;
+  int64_t clock = -1; ///< Of wait().
   int cycles = 0;
 };
 

@@ -60,44 +60,44 @@ protected:
 };
 
 TEST_F(Parameter, NumbersOfObjects) {
-  EXPECT_EQ(parameterOf({0x6064, 0}), -0x606400);
-  EXPECT_EQ(objectOfParameter(-0x606402), (Object{0x6064, 2}));
-  EXPECT_EQ(objectOfParameter(-0xFFFFFF), (Object{0xFFFF, 255}));
-  EXPECT_EQ(objectOfParameter(-1), (Object{0, 1}));
-  EXPECT_FALSE(objectOfParameter(-0x1000000));
+  EXPECT_EQ(parameterOf({0x6064, 0}), 0x606400);
+  EXPECT_EQ(objectOfParameter(0x606402), (Object{0x6064, 2}));
+  EXPECT_EQ(objectOfParameter(0xFFFFFF), (Object{0xFFFF, 255}));
+  EXPECT_EQ(objectOfParameter(1), (Object{0, 1}));
+  EXPECT_FALSE(objectOfParameter(0x1000000));
   EXPECT_FALSE(objectOfParameter(0));
-  EXPECT_FALSE(objectOfParameter(7));
+  EXPECT_FALSE(objectOfParameter(-7));
   EXPECT_FALSE(objectOfParameter(INT32_MIN));
-  EXPECT_EQ(ask(read(7), "").result, Result::Unknown);
+  EXPECT_EQ(ask(read(-7), "").result, Result::Unknown);
 }
 
 TEST_F(Parameter, ReadsWithTheSignThatTheObjectHas) {
-  ParameterAnswer answer = ask(read(-0x606400), R"(> 40 64 60 00 00 00 00 00
+  ParameterAnswer answer = ask(read(0x606400), R"(> 40 64 60 00 00 00 00 00
                                                    < 43 64 60 00 FE FF FF FF)");
   EXPECT_EQ(answer.result, Result::Done);
   EXPECT_EQ(answer.value, -2);
-  answer = ask(read(-0x200105), R"(> 40 01 20 05 00 00 00 00
+  answer = ask(read(0x200105), R"(> 40 01 20 05 00 00 00 00
                                    < 43 01 20 05 FE FF FF FF)");
   EXPECT_EQ(answer.value, 4294967294.0) << "an object that nobody knows has none";
-  answer = ask(read(-0x609800), "> 40 98 60 00 00 00 00 00\n< 4F 98 60 00 F1 00 00 00");
+  answer = ask(read(0x609800), "> 40 98 60 00 00 00 00 00\n< 4F 98 60 00 F1 00 00 00");
   EXPECT_EQ(answer.value, -15);
-  answer = ask(read(-0x604100, ParameterForm::Bool),
+  answer = ask(read(0x604100, ParameterForm::Bool),
                "> 40 41 60 00 00 00 00 00\n< 4B 41 60 00 00 02 00 00");
   EXPECT_EQ(answer.value, 1);
-  answer = ask(read(-0x606400, ParameterForm::Raw),
+  answer = ask(read(0x606400, ParameterForm::Raw),
                "> 40 64 60 00 00 00 00 00\n< 43 64 60 00 FE FF FF FF");
   EXPECT_EQ(answer.raw, 0xFFFFFFFEU);
 }
 
 TEST_F(Parameter, TextsAreBytesAndNoNumbers) {
-  const ParameterAnswer answer = ask(read(-0x100800, ParameterForm::Bytes),
+  const ParameterAnswer answer = ask(read(0x100800, ParameterForm::Bytes),
                                      R"(> A4 08 10 00 7F 40 00 00
                                         < 41 08 10 00 05 00 00 00
                                         > 60 00 00 00 00 00 00 00
                                         < 05 41 42 43 44 45 00 00)");
   EXPECT_EQ(answer.result, Result::Done);
   EXPECT_EQ(answer.bytes.text(), "ABCDE");
-  transfer.start(read(-0x100800));
+  transfer.start(read(0x100800));
   transfer.begin(sdo);
   sdo.sent();
   sdo.received(test::frame("585#41 08 10 00 09 00 00 00"));
@@ -109,17 +109,16 @@ TEST_F(Parameter, TextsAreBytesAndNoNumbers) {
 
 TEST_F(Parameter, WritesWithTheSizeOfTheObject) {
   // Known: at once.
-  EXPECT_EQ(
-      ask(write(-0x609800, -3), "> 2F 98 60 00 FD 00 00 00\n< 60 98 60 00 00 00 00 00").result,
-      Result::Done);
+  EXPECT_EQ(ask(write(0x609800, -3), "> 2F 98 60 00 FD 00 00 00\n< 60 98 60 00 00 00 00 00").result,
+            Result::Done);
   // Else the node is asked.
-  EXPECT_EQ(ask(write(-0x200101, 500), R"(> 40 01 20 01 00 00 00 00
+  EXPECT_EQ(ask(write(0x200101, 500), R"(> 40 01 20 01 00 00 00 00
                                           < 4B 01 20 01 07 00 00 00
                                           > 2B 01 20 01 F4 01 00 00
                                           < 60 01 20 01 00 00 00 00)")
                 .result,
             Result::Done);
-  EXPECT_EQ(ask(write(-0x200101, 1, ParameterForm::Bool), R"(> 40 01 20 01 00 00 00 00
+  EXPECT_EQ(ask(write(0x200101, 1, ParameterForm::Bool), R"(> 40 01 20 01 00 00 00 00
                                                              < 4F 01 20 01 00 00 00 00
                                                              > 2F 01 20 01 01 00 00 00
                                                              < 60 01 20 01 00 00 00 00)")
@@ -134,10 +133,10 @@ TEST_F(Parameter, NumbersThatDoNotFitAreRefused) {
     bool fits;
   };
   for (const Row &row :
-       {Row{-0x609800, 127, true}, Row{-0x609800, 128, false}, Row{-0x609800, -128, true},
-        Row{-0x609800, -129, false}, Row{-0x604000, 65535, true}, Row{-0x604000, 65536, false},
-        Row{-0x604000, 0, true}, Row{-0x604000, -1, false}, Row{-0x604000, 1e300, false},
-        Row{-0x604000, std::nan(""), false}}) {
+       {Row{0x609800, 127, true}, Row{0x609800, 128, false}, Row{0x609800, -128, true},
+        Row{0x609800, -129, false}, Row{0x604000, 65535, true}, Row{0x604000, 65536, false},
+        Row{0x604000, 0, true}, Row{0x604000, -1, false}, Row{0x604000, 1e300, false},
+        Row{0x604000, std::nan(""), false}}) {
     transfer.start(write(row.number, row.value));
     transfer.begin(sdo);
     ParameterAnswer answer;
@@ -150,7 +149,7 @@ TEST_F(Parameter, NumbersThatDoNotFitAreRefused) {
   // An object of one byte that nobody knows: -128 to 255.
   for (const auto &[value, fits] : std::vector<std::pair<double, bool>>{
            {-128, true}, {255, true}, {-129, false}, {256, false}}) {
-    transfer.start(write(-0x200100, value));
+    transfer.start(write(0x200100, value));
     transfer.begin(sdo);
     sdo.sent();
     sdo.received(test::frame("585#4F 01 20 00 00 00 00 00"));
@@ -168,7 +167,7 @@ TEST_F(Parameter, RawBitsOfNarrowObjects) {
   };
   for (const Row &row : {Row{0xFFFF, true}, Row{0xFFFF8000, true}, Row{0x10000, false},
                          Row{0xFFFF7FFF, false}, Row{0x8000, true}}) {
-    ParameterRequest request = write(-0x604000, 0, ParameterForm::Raw);
+    ParameterRequest request = write(0x604000, 0, ParameterForm::Raw);
     request.raw = row.raw;
     transfer.start(request);
     transfer.begin(sdo);
@@ -179,7 +178,7 @@ TEST_F(Parameter, RawBitsOfNarrowObjects) {
 }
 
 TEST_F(Parameter, BytesAreWrittenAsTheyAre) {
-  ParameterRequest request = write(-0x200100, 0, ParameterForm::Bytes);
+  ParameterRequest request = write(0x200100, 0, ParameterForm::Bytes);
   request.bytes = bus::ByteString(std::string_view("Axis 1"));
   EXPECT_EQ(ask(request, R"(> 21 01 20 00 06 00 00 00
                             < 60 01 20 00 00 00 00 00
@@ -201,13 +200,13 @@ TEST_F(Parameter, AbortsHaveAMeaning) {
                                                    {"22000008", Result::Refused},
                                                    {"00000008", Result::Failed},
                                                    {"EFBEADDE", Result::Failed}})
-    EXPECT_EQ(ask(write(-0x609800, 1), "> 2F 98 60 00 01 00 00 00\n< 80 98 60 00" + code).result,
+    EXPECT_EQ(ask(write(0x609800, 1), "> 2F 98 60 00 01 00 00 00\n< 80 98 60 00" + code).result,
               result)
         << code;
 }
 
 TEST_F(Parameter, GivesUpAfterItsTime) {
-  transfer.start(read(-0x606400));
+  transfer.start(read(0x606400));
   transfer.begin(sdo);
   sdo.sent();
   for (int i = 0; i < 100; ++i)
@@ -219,12 +218,12 @@ TEST_F(Parameter, GivesUpAfterItsTime) {
 }
 
 TEST_F(Parameter, ACancelledQuestionAnswersNobody) {
-  transfer.start(read(-0x606400));
+  transfer.start(read(0x606400));
   transfer.begin(sdo);
   sdo.sent();
   transfer.cancel(sdo);
   EXPECT_EQ(sdo.state(), SdoClient::State::Failed);
-  transfer.start(read(-0x606300)); // the next one, before the end of the first is noticed
+  transfer.start(read(0x606300)); // the next one, before the end of the first is noticed
   transfer.finished(sdo);
   ParameterAnswer answer;
   EXPECT_FALSE(transfer.poll(answer));
@@ -237,7 +236,7 @@ TEST_F(Parameter, ListsWhatTheConfigurationWrites) {
   request.number = 1;
   const ParameterAnswer answer = ask(request, "");
   EXPECT_EQ(answer.result, Result::Done);
-  EXPECT_EQ(answer.number, -0x609902);
+  EXPECT_EQ(answer.number, 0x609902);
   EXPECT_EQ(answer.name, "16#6099:2");
   EXPECT_TRUE(answer.writable);
   request.number = 2;

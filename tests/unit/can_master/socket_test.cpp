@@ -43,6 +43,7 @@ TEST(SocketCan, AnInterfaceThatIsNoCan) {
 
 TEST(SocketCan, TheDriverSaysWhatIsWrong) {
   bus::GroupSetup setup(kSchema, 0.001);
+  setup.kind = bus::BusKind::Real;
   setup.busParameters.add({"interface", "nocan77", 0});
   setup.addDrive("X", 3);
   setup.kind = bus::BusKind::Real;

@@ -183,8 +183,8 @@ TEST(PdoCode, ThereAndBackAgain) {
     const Pdo one = pdo(entries);
     Signals received;
     ASSERT_TRUE(decode(one, encode(one, sent), received));
-    for (const Signal signal : used)
-      ASSERT_EQ(received.number(signal), sent.number(signal));
+    for (const Signal signal : used) // set values are the master's, whatever a drive shows
+      ASSERT_EQ(received.number(signal), signal < Signal::Statusword ? 0 : sent.number(signal));
   }
 }
 

@@ -1,0 +1,321 @@
+#include "drivers/can/plan/drive_settings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace stride::can {
+namespace {
+
+/// Types of start-up parameters, by their names in IEC 61131-3.
+struct TypeRow {
+  std::string_view name;
+  ObjectForm form;
+};
+constexpr std::array<TypeRow, 10> kTypes = {{{"BOOL", {1, false}},
+                                             {"BYTE", {1, false}},
+                                             {"SINT", {1, true}},
+                                             {"USINT", {1, false}},
+                                             {"INT", {2, true}},
+                                             {"UINT", {2, false}},
+                                             {"WORD", {2, false}},
+                                             {"DINT", {4, true}},
+                                             {"UDINT", {4, false}},
+                                             {"DWORD", {4, false}}}};
+constexpr std::string_view kReal = "REAL";
+
+/// Objects that the driver writes itself, and what of stride.toml decides about them.
+struct OwnedRow {
+  uint16_t first;
+  uint16_t last;
+  std::string_view by;
+};
+constexpr std::array<OwnedRow, 9> kOwned = {{
+    {0x1005, 0x1006, "`SyncProducer` and the cycle"},
+    {0x100C, 0x100D, "`guard`"},
+    {0x1016, 0x1017, "`heartbeat`"},
+    {0x1020, 0x1020, "the driver: what is configured has its stamp there"},
+    {0x1400, 0x17FF, "the tables `rpdo1` … `rpdo4`"},
+    {0x1800, 0x1BFF, "the tables `tpdo1` … `tpdo4`"},
+    {0x6040, 0x6041, "the driver: it is the drive's state machine"},
+    {0x6060, 0x6061, "the controller mode"},
+    {0x60C2, 0x60C2, "the cycle"},
+}};
+
+std::string_view trimmed(std::string_view text) {
+  const size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string> linesOf(const std::string &text) {
+  std::vector<std::string> lines;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+std::optional<uint64_t> wholeNumber(std::string_view digits, int base) {
+  uint64_t value = 0;
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
+  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size())
+    return std::nullopt;
+  return value;
+}
+
+bool fail(std::string &error, std::string text) {
+  error = std::move(text);
+  return false;
+}
+
+/// "6098h".
+std::optional<uint16_t> indexIn(std::string_view text) {
+  constexpr size_t kDigits = 4;
+  if (text.size() != kDigits + 1 || (text.back() != 'h' && text.back() != 'H'))
+    return std::nullopt;
+  const auto value = wholeNumber(text.substr(0, kDigits), 16);
+  return value ? std::optional(static_cast<uint16_t>(*value)) : std::nullopt;
+}
+
+/// Up to three parts between colons: index, subindex, and bits where `bits` is not null.
+bool objectOf(std::string_view text, Object &object, std::optional<uint64_t> *bits,
+              std::string &error) {
+  std::array<std::string_view, 3> parts;
+  size_t count = 0;
+  for (size_t at = 0; at <= text.size(); ++count) {
+    const size_t end = std::min(text.find(':', at), text.size());
+    if (count == (bits != nullptr ? 3U : 2U))
+      return fail(error, "too many colons");
+    parts[count] = trimmed(text.substr(at, end - at));
+    at = end + 1;
+  }
+  const auto index = indexIn(parts[0]);
+  if (!index)
+    return fail(error, "an object is written as 6098h, or with its subindex as 6099h:1");
+  const auto sub = count > 1 ? wholeNumber(parts[1], 10) : std::optional<uint64_t>(0);
+  if (!sub || *sub > UINT8_MAX)
+    return fail(error, "a subindex is a number from 0 to 255");
+  object = {*index, static_cast<uint8_t>(*sub)};
+  if (count < 3)
+    return true;
+  *bits = wholeNumber(parts[2], 10);
+  return *bits ? true : fail(error, "the bits of an object are a number");
+}
+
+/// A number without its type: "-35", "16#1F", "2#1010", "1_000".
+struct Number {
+  uint64_t magnitude = 0;
+  bool negative = false;
+};
+std::optional<Number> numberOf(std::string_view text) {
+  Number number;
+  number.negative = text.starts_with('-');
+  if (number.negative || text.starts_with('+'))
+    text.remove_prefix(1);
+  int base = 10;
+  if (const size_t mark = text.find('#'); mark != std::string_view::npos) {
+    const auto given = wholeNumber(text.substr(0, mark), 10);
+    if (!given || (*given != 2 && *given != 8 && *given != 16))
+      return std::nullopt;
+    base = static_cast<int>(*given);
+    text.remove_prefix(mark + 1);
+  }
+  std::string digits(text);
+  std::erase(digits, '_');
+  const auto magnitude = wholeNumber(digits, base);
+  if (!magnitude)
+    return std::nullopt;
+  number.magnitude = *magnitude;
+  return number;
+}
+
+std::optional<uint32_t> fitted(const Number &number, const ObjectForm &form, bool isBool) {
+  const unsigned bits = 8U * form.bytes;
+  const uint64_t most = isBool ? 1 : (uint64_t{1} << (form.isSigned ? bits - 1 : bits)) - 1;
+  const uint64_t least = form.isSigned ? most + 1 : 0; // below zero
+  if (number.magnitude > (number.negative ? least : most))
+    return std::nullopt;
+  const uint64_t word = number.negative ? ~number.magnitude + 1 : number.magnitude;
+  return static_cast<uint32_t>(word & ((uint64_t{1} << bits) - 1));
+}
+
+bool realValue(std::string_view text, SdoWrite &write, std::string &error) {
+  float value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || problem != std::errc() || end != text.data() + text.size() ||
+      !std::isfinite(value))
+    return fail(error, "this is no REAL");
+  write.size = sizeof value;
+  write.value = std::bit_cast<uint32_t>(value);
+  return true;
+}
+
+const TypeRow *typeOf(std::string_view name) {
+  const auto *const found = std::find_if(kTypes.begin(), kTypes.end(), [name](const TypeRow &row) {
+    return std::equal(
+        row.name.begin(), row.name.end(), name.begin(), name.end(),
+        [](char a, char b) { return a == (b >= 'a' && b <= 'z' ? b - 'a' + 'A' : b); });
+  });
+  return found != kTypes.end() ? found : nullptr;
+}
+
+/// "35", "SINT#35", "WORD#16#1F".
+bool valueOf(std::string_view text, SdoWrite &write, std::string &error) {
+  const ObjectForm known = formOf(write.object);
+  ObjectForm form = known;
+  const size_t mark = text.find('#');
+  const std::string_view name = text.substr(0, mark == std::string_view::npos ? 0 : mark);
+  const TypeRow *type = name.empty() ? nullptr : typeOf(name);
+  const bool typed = !name.empty() && (name[0] < '0' || name[0] > '9');
+  if (name == kReal && known.bytes == 0)
+    return realValue(text.substr(mark + 1), write, error);
+  if (typed && type == nullptr)
+    return fail(error, "a value has the type BOOL, BYTE, SINT, USINT, INT, UINT, WORD, DINT, "
+                       "UDINT, DWORD or REAL, as in UINT#500");
+  if (type != nullptr) {
+    form = type->form;
+    text.remove_prefix(mark + 1);
+  }
+  if (form.bytes == 0)
+    return fail(error, "the type of this object is not known here: write it before the value, as "
+                       "in UINT#500");
+  if (known.bytes != 0 && known.bytes != form.bytes)
+    return fail(error, "this object has " + std::to_string(8 * known.bytes) + " bits");
+  const auto number = numberOf(text);
+  if (!number)
+    return fail(error, "this is no whole number");
+  const auto value = fitted(*number, form, type != nullptr && type->name == "BOOL");
+  if (!value)
+    return fail(error, "the value does not fit into " + std::to_string(8 * form.bytes) + " bits" +
+                           (form.isSigned ? " with a sign" : " without a sign"));
+  write.size = form.bytes;
+  write.value = *value;
+  return true;
+}
+
+/// What is wrong with a PDO as a whole; empty: nothing.
+std::string lengthFault(const Pdo &pdo) {
+  if (pdo.bits() > Pdo::kMostBits)
+    return "it has " + std::to_string(pdo.bits()) + " bits, and 64 is what a PDO has room for";
+  return {};
+}
+
+class PdoReader {
+public:
+  PdoReader(uint8_t node, const common::SetupParameters &given, std::vector<std::string> &errors)
+      : given_(given), errors_(errors), node_(node) {}
+
+  std::vector<Pdo> read(bool transmits) {
+    std::vector<Pdo> pdos;
+    for (uint8_t number = 1; number <= DrivePlan::kMostPdos; ++number) {
+      const std::string table = (transmits ? "tpdo" : "rpdo") + std::to_string(number);
+      if (!given_.given(table + ".map"))
+        continue;
+      Pdo &pdo = pdos.emplace_back();
+      pdo.number = number;
+      pdo.cobId = static_cast<uint16_t>((transmits ? kTpdoBase : kRpdoBase) +
+                                        (number - 1) * kNextPdo + node_);
+      readTiming(table, pdo, transmits);
+      readMap(table, pdo, transmits);
+    }
+    return pdos;
+  }
+
+private:
+  void readTiming(const std::string &table, Pdo &pdo, bool transmits) {
+    if (given_.number(table + ".when") == 0)
+      return;
+    pdo.transmission = Pdo::kByEvent;
+    if (!transmits)
+      return;
+    pdo.inhibit = scaled(given_.number(table + ".inhibit"), 1e4); // [100 µs]
+    pdo.eventTimer = scaled(given_.number(table + ".event"), 1e3);
+  }
+  static uint16_t scaled(double seconds, double perSecond) {
+    return static_cast<uint16_t>(std::clamp(seconds * perSecond + 0.5, 0.0, 65535.0));
+  }
+
+  void readMap(const std::string &table, Pdo &pdo, bool transmits) {
+    for (const std::string &line : linesOf(given_.text(table + ".map"))) {
+      PdoEntry entry;
+      std::string error;
+      if (!parseEntry(line, entry, error))
+        errors_.push_back("`" + line + "` in `" + table + "`: " + error);
+      else if (!transmits && isTold(entry.object))
+        errors_.push_back("`" + line + "` in `" + table + "`: the drive tells it and is not told");
+      else if (pdo.count == Pdo::kMostEntries)
+        errors_.push_back("`" + table + "` has more than 8 objects");
+      else
+        pdo.entries[pdo.count++] = entry;
+    }
+    if (const std::string fault = lengthFault(pdo); !fault.empty())
+      errors_.push_back("`" + table + "`: " + fault);
+  }
+  static bool isTold(Object object) {
+    const Signal signal = signalOf(object);
+    return signal >= Signal::Statusword && signal != Signal::Other;
+  }
+
+  const common::SetupParameters &given_;
+  std::vector<std::string> &errors_;
+  uint8_t node_;
+};
+
+} // namespace
+
+bool parseStartUp(std::string_view text, SdoWrite &write, std::string &error) {
+  const size_t sign = text.find(":=");
+  if (sign == std::string_view::npos)
+    return fail(error, "an entry is an object and its value: \"6098h := 35\"");
+  write = {};
+  if (!objectOf(trimmed(text.substr(0, sign)), write.object, nullptr, error))
+    return false;
+  const uint16_t index = write.object.index;
+  for (const OwnedRow &row : kOwned)
+    if (index >= row.first && index <= row.last)
+      return fail(error, "what is written there is the matter of " + std::string(row.by));
+  return valueOf(trimmed(text.substr(sign + 2)), write, error);
+}
+
+bool parseEntry(std::string_view text, PdoEntry &entry, std::string &error) {
+  std::optional<uint64_t> bits;
+  if (!objectOf(trimmed(text), entry.object, &bits, error))
+    return false;
+  const uint32_t known = 8U * formOf(entry.object).bytes;
+  if (!bits && known == 0)
+    return fail(error, "the length of this object is not known here: write its bits, as in "
+                       "2031h:2:16");
+  if (bits && known != 0 && *bits != known)
+    return fail(error, "this object has " + std::to_string(known) + " bits");
+  constexpr std::array<uint64_t, 4> kLengths = {8, 16, 32, 64};
+  if (bits && std::find(kLengths.begin(), kLengths.end(), *bits) == kLengths.end())
+    return fail(error, "an object in a PDO has 8, 16, 32 or 64 bits");
+  entry.bits = static_cast<uint8_t>(bits ? *bits : known);
+  return true;
+}
+
+DriveSettings driveSettings(uint8_t node, const common::SetupParameters &given) {
+  DriveSettings settings;
+  for (const std::string &line : linesOf(given.text("startup"))) {
+    SdoWrite write;
+    std::string error;
+    if (parseStartUp(line, write, error))
+      settings.startup.push_back(write);
+    else
+      settings.errors.push_back("`" + line + "` in `startup`: " + error);
+  }
+  PdoReader reader(node, given, settings.errors);
+  settings.rpdos = reader.read(false);
+  settings.tpdos = reader.read(true);
+  return settings;
+}
+
+} // namespace stride::can
