@@ -11,7 +11,6 @@
 #include "compiler/project/project.hpp"
 #include "compiler/source/render.hpp"
 #include "compiler/source/sources.hpp"
-#include "drivers/registry.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -142,12 +141,7 @@ int canPlanCommand(const ProjectOptions &options, const CanOptions &can) {
   const Project project(options.path, Purpose::Check, settingsOf(options), index);
   const int code = show(project.diagnostics(), project.sources(), options.output);
   size_t shown = 0;
-  for (const AxisGroupConfig &group : project.config().axisGroups) {
-    const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
-    if (driver == nullptr || driver->plan == nullptr || group.cycleUs == 0)
-      continue;
-    const stride::bus::GroupPlanText plan =
-        driver->plan(driverSetup(project.config(), group, *driver, group.cycleUs * 1e-6));
+  for (const stride::bus::GroupPlanText &plan : busPlans(project.config())) {
     print((shown++ == 0 ? "" : "\n") + plan.text);
     if (!can.dcf.empty() && !writeFiles(plan, can.dcf))
       return 1;

@@ -14,8 +14,8 @@ void addAll(const std::vector<ConfigParameter> &parameters, stride::bus::SetupPa
     to.add({parameter.name, parameter.text, parameter.number});
 }
 
-} // namespace
-
+/// The configuration of an axis group as its driver gets it at run time. `driver` is that of the
+/// group, and must live as long as the result; `cycleSeconds`: of its task.
 stride::bus::GroupSetup driverSetup(const ProjectConfig &config, const AxisGroupConfig &group,
                                     const stride::bus::DriverSchema &driver, double cycleSeconds) {
   const BusConfig &bus = config.buses[group.bus];
@@ -30,6 +30,18 @@ stride::bus::GroupSetup driverSetup(const ProjectConfig &config, const AxisGroup
   for (const EncoderConfig &encoder : group.encoders)
     addAll(encoder.parameters, setup.addEncoder(encoder.name.text, encoder.id).parameters);
   return setup;
+}
+
+} // namespace
+
+std::vector<stride::bus::GroupPlanText> busPlans(const ProjectConfig &config) {
+  std::vector<stride::bus::GroupPlanText> plans;
+  for (const AxisGroupConfig &group : config.axisGroups) {
+    const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
+    if (driver != nullptr && driver->plan != nullptr && group.cycleUs != 0)
+      plans.push_back(driver->plan(driverSetup(config, group, *driver, group.cycleUs * 1e-6)));
+  }
+  return plans;
 }
 
 void checkByDriver(const ProjectConfig &config, const AxisGroupConfig &group, double cycleSeconds,

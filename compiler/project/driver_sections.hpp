@@ -6,7 +6,7 @@
 #include "compiler/project/config.hpp"
 #include "compiler/toml/schema.hpp"
 #include "runtime/bus/driver_schema.hpp"
-#include "runtime/bus/group_setup.hpp"
+#include "runtime/bus/group_check.hpp"
 #include "runtime/io/io_schema.hpp"
 
 #include <deque>
@@ -107,12 +107,9 @@ void addParameters(const CheckedSection &section, std::string_view prefix,
 void readDriverTables(const CheckedSection &section, const RuleScope &scope,
                       std::vector<ConfigParameter> &parameters, Diagnostics &diagnostics);
 
-/// The configuration of an axis group as its driver gets it at run time. `driver` is that of the
-/// group, and must live as long as the result; `cycleSeconds`: of its task.
-[[nodiscard]] stride::bus::GroupSetup driverSetup(const ProjectConfig &config,
-                                                  const AxisGroupConfig &group,
-                                                  const stride::bus::DriverSchema &driver,
-                                                  double cycleSeconds);
+/// What the drivers of the axis groups say about what they exchange with their drives
+/// (DriverSchema::plan), as far as they say something.
+[[nodiscard]] std::vector<stride::bus::GroupPlanText> busPlans(const ProjectConfig &config);
 
 /// Reports what the driver of an axis group has to say of it (DriverSchema::check). The group has
 /// been read without errors; `cycleSeconds`: of its task.

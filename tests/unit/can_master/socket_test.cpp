@@ -46,7 +46,6 @@ TEST(SocketCan, TheDriverSaysWhatIsWrong) {
   setup.kind = bus::BusKind::Real;
   setup.busParameters.add({"interface", "nocan77", 0});
   setup.addDrive("X", 3);
-  setup.kind = bus::BusKind::Real;
   const std::unique_ptr<bus::AxisDriver> driver = makeDriver(setup);
   driver->executeStart();
   uint16_t progress = 0;

@@ -77,6 +77,11 @@ std::string valuesOf(const Parameter &row) {
       text = fmt::format("{} … {}", row.low, row.high);
     if (!row.unit.empty())
       text += fmt::format("{}{}", text.empty() ? "" : " ", row.unit);
+    if (text.empty())
+      text = "number";
+    break;
+  case ParameterType::NameList:
+    text = "list of texts";
     break;
   default:
     text = "text";
