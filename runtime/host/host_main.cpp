@@ -64,6 +64,16 @@ struct SimTexts {
   bool summary = false;
 };
 
+void declareRecordings(CLI::App &sim, SimTexts &texts) {
+  sim.add_option("--can-log", texts.canLog, "Write the frames of CAN buses, as candump does")
+      ->type_name("FILE");
+  sim.add_option(
+         "--can-replay", texts.canReplay,
+         "Frames that '--can-log' has written take the place of a simulated CAN bus; what is "
+         "sent is compared with them")
+      ->type_name("FILE");
+}
+
 void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
   if (!builtIn)
     sim.add_option("APP", texts.application, "The application that 'stride build' made")
@@ -76,13 +86,7 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
                      "Repeat the cycles and inputs of a run that 'run --record' has recorded")
           ->type_name("FILE")
           ->excludes(duration);
-  sim.add_option("--can-log", texts.canLog, "Write the frames of CAN buses, as candump does")
-      ->type_name("FILE");
-  sim.add_option(
-         "--can-replay", texts.canReplay,
-         "Frames that '--can-log' has written take the place of a simulated CAN bus; what is "
-         "sent is compared with them")
-      ->type_name("FILE");
+  declareRecordings(sim, texts);
   sim.callback([duration, replay] {
     if (duration->count() == 0 && replay->count() == 0)
       throw CLI::RequiredError("--for");
