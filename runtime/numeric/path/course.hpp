@@ -22,21 +22,21 @@ struct Strip {
   double along;        ///< Axes allow along * |a| + across * v^2 <= 1; 0: no limit. [s^2/u]
   double across;       ///< See `along`; times `ceiling` at most 0.95. [s^2/u^2]
   float jerk;          ///< Tangential, if that is less than the law's; 0: no limit. [u/s^3]
-  uint16_t spare;      ///< See spareJerk.
-  bool stop;           ///< The motion rests at its end.
-  bool gate;           ///< It goes on from there only when it is told to.
+  uint32_t spare : 30; ///< See spareJerk.
+  bool stop : 1;       ///< The motion rests at its end.
+  bool gate : 1;       ///< It goes on from there only when it is told to.
 };
 static_assert(sizeof(Strip) == 80); // there are many of them
 
 /// The jerk up to which a stop may ask for more than `jerk`. [u/s^3]
 inline double spareJerk(const Strip &strip) noexcept {
-  return static_cast<double>(__builtin_bit_cast(float, static_cast<uint32_t>(strip.spare) << 16U));
+  return static_cast<double>(__builtin_bit_cast(float, static_cast<uint32_t>(strip.spare) << 1U));
 }
 
-/// Keeps what 16 bits hold of it: up to 0.8 % less. `jerk` is not negative.
+/// Keeps what 30 bits hold of it, with the last bit of a float cut off. `jerk` is not negative.
 inline void setSpareJerk(Strip &strip, double jerk) noexcept {
-  strip.spare =
-      static_cast<uint16_t>(__builtin_bit_cast(uint32_t, static_cast<float>(jerk)) >> 16U);
+  const auto bits = __builtin_bit_cast(uint32_t, static_cast<float>(jerk));
+  strip.spare = (bits >> 1U) & 0x3FFFFFFFU;
 }
 
 inline constexpr int32_t kStrips = 256;
