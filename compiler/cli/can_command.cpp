@@ -17,7 +17,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace stc::cli {
 
@@ -109,8 +108,8 @@ std::string remarksOf(const eds::Device &device) {
   for (const eds::Object &object : device.objects)
     configured += object.configured ? 1 : 0;
   if (configured != 0)
-    text += fmt::format("# {} configured values of the file are not in this section: write them "
-                        "with the maker's tool, or by SMC_WriteCANParameter.\n",
+    text += fmt::format("# Not in this section: {} configured values of the file; what the drive "
+                        "needs of them goes into `startup`.\n",
                         configured);
   return text;
 }
@@ -162,8 +161,10 @@ int canImportCommand(const CanOptions &can) {
   const bool isXml = ending == ".xdd" || ending == ".xdc";
   const eds::Device device = isXml ? eds::readXdd(*text) : eds::readEds(*text);
   for (const eds::Note &note : device.notes)
-    std::fprintf(stderr, "note: %s:%zu: %s\n", visible(can.file).c_str(), note.line,
-                 visible(note.text).c_str());
+    std::fprintf(
+        stderr, "note: %s: %s\n",
+        visible(note.line == 0 ? can.file : fmt::format("{}:{}", can.file, note.line)).c_str(),
+        visible(note.text).c_str());
   if (device.moreNotes != 0)
     std::fprintf(stderr, "note: and %zu more\n", device.moreNotes);
   if (device.objects.empty())
@@ -183,16 +184,9 @@ int canImportCommand(const CanOptions &can) {
 int becomeCanTool(std::vector<std::string> arguments) {
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
-  std::string program = installation ? installation->canTool.string() : missing;
+  const std::string program = installation ? installation->canTool.string() : missing;
   arguments.insert(arguments.begin(), "stride can"); // whose part it is, for its messages
-  std::vector<char *> pointers;
-  for (std::string &argument : arguments)
-    pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  std::fflush(nullptr);
-  ::execvp(program.c_str(), pointers.data());
-  return showError(Code::ToolchainMissing,
-                   fmt::format("`{}` cannot be started: {}", program, std::strerror(errno)));
+  return become(program, std::move(arguments), {});
 }
 
 int canProjectCommand(const std::string &command, const ProjectOptions &options,

@@ -80,21 +80,6 @@ bool addPath(std::vector<std::string> &arguments, const std::string &option,
   return true;
 }
 
-// Replaces this program by another one; returns only when that fails. The first of the arguments is
-// the name by which it knows itself. `remedy`: what to do then.
-int become(const std::string &program, std::vector<std::string> arguments, const Output &output,
-           std::string_view remedy = {}) {
-  std::vector<char *> pointers;
-  for (std::string &argument : arguments)
-    pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  std::fflush(nullptr);
-  ::execvp(program.c_str(), pointers.data());
-  return showError(
-      Code::ToolchainMissing,
-      fmt::format("`{}` cannot be started: {}{}", program, std::strerror(errno), remedy), output);
-}
-
 // Puts the project's own socket where it is meant. False: there can be none, which is shown.
 bool fillInSocket(std::vector<std::string> &arguments, const ProjectOptions &options) {
   for (size_t i = 0; i + 1 < arguments.size(); ++i) {
@@ -145,6 +130,19 @@ bool fillInGroups(std::vector<std::string> &arguments, const BuildResult &result
 }
 
 } // namespace
+
+int become(const std::string &program, std::vector<std::string> arguments, const Output &output,
+           std::string_view remedy) {
+  std::vector<char *> pointers;
+  for (std::string &argument : arguments)
+    pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  std::fflush(nullptr);
+  ::execvp(program.c_str(), pointers.data());
+  return showError(
+      Code::ToolchainMissing,
+      fmt::format("`{}` cannot be started: {}{}", program, std::strerror(errno), remedy), output);
+}
 
 std::optional<BuildResult> buildToRun(const ProjectOptions &options, BuildUse use, int &exitCode,
                                       const std::vector<std::string> &hostArguments) {

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stc::cli {
@@ -24,6 +25,11 @@ namespace stc::cli {
 [[nodiscard]] std::optional<std::vector<std::string>>
 hostArgumentsOf(const ProjectOptions &options, const std::string &command,
                 const BuildResult &result, const std::vector<std::string> &own);
+
+/// Replaces this program by another one; returns only when that fails. The first of the arguments
+/// is the name by which it knows itself. `remedy`: what to do then.
+int become(const std::string &program, std::vector<std::string> arguments, const Output &output,
+           std::string_view remedy = {});
 
 /// Becomes stride-host; returns only when that fails. Before a run signals that it takes must be
 /// held: the first of them would end it.
