@@ -204,16 +204,19 @@ void SdoClient::downloadStarted(const Frame &frame) {
   next_ = Next::Segment;
 }
 
-void SdoClient::segmentDownloaded(const Frame &frame) {
-  if (command(frame) != kSegmentDownloaded) {
-    misfit(abort_code::kCommand);
-    return;
-  }
-  if (((frame.data[0] & 0x10U) != 0) != toggle_) {
-    misfit(abort_code::kToggle);
-    return;
+bool SdoClient::answersSegment(const Frame &frame, unsigned expected) {
+  const bool toggled = ((frame.data[0] & 0x10U) != 0) == toggle_;
+  if (command(frame) != expected || !toggled) {
+    misfit(command(frame) != expected ? abort_code::kCommand : abort_code::kToggle);
+    return false;
   }
   toggle_ = !toggle_;
+  return true;
+}
+
+void SdoClient::segmentDownloaded(const Frame &frame) {
+  if (!answersSegment(frame, kSegmentDownloaded))
+    return;
   done_ += std::min(kSegment, bytes_.size() - done_);
   if (done_ == bytes_.size())
     finish(done_);
@@ -263,15 +266,8 @@ void SdoClient::uploadStarted(const Frame &frame) {
 }
 
 void SdoClient::segmentUploaded(const Frame &frame) {
-  if (command(frame) != kSegmentUploaded) {
-    misfit(abort_code::kCommand);
+  if (!answersSegment(frame, kSegmentUploaded))
     return;
-  }
-  if (((frame.data[0] & 0x10U) != 0) != toggle_) {
-    misfit(abort_code::kToggle);
-    return;
-  }
-  toggle_ = !toggle_;
   const size_t unused = frame.data[0] >> 1U & 7U;
   const bool last = (frame.data[0] & 1U) != 0;
   if (unused == kSegment && !last) { // that would never end

@@ -88,6 +88,7 @@ private:
   void uploadStarted(const Frame &frame);
   void blockUploadStarted(const Frame &frame);
   void downloadStarted(const Frame &frame);
+  [[nodiscard]] bool answersSegment(const Frame &frame, unsigned expected);
   void segmentDownloaded(const Frame &frame);
   void segmentUploaded(const Frame &frame);
   [[nodiscard]] bool takeSize(size_t size);

@@ -4,27 +4,19 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 
 namespace stride::can::tool {
 namespace {
 
 constexpr int64_t kStepNs = 1000000; ///< In which time-outs are counted.
-constexpr int64_t kSecondNs = 1000000000;
 
 } // namespace
-
-int64_t monotonicNow() {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kSecondNs + now.tv_nsec;
-}
 
 template <class Start>
 Transfer BusClient::transfer(uint8_t node, int64_t timeoutNs, const Start &start) {
   SdoClient client(node, static_cast<uint32_t>(std::max<int64_t>(timeoutNs / kStepNs, 1)));
   start(client);
-  int64_t next = monotonicNow() + kStepNs;
+  int64_t next = port_.monotonicNs() + kStepNs;
   std::array<Received, 32> frames;
   for (;;) {
     while (client.pending() &&
@@ -37,7 +29,7 @@ Transfer BusClient::transfer(uint8_t node, int64_t timeoutNs, const Start &start
     for (size_t i = 0; i < count; ++i)
       if (frames[i].frame.id == kSdoAnswerBase + node)
         client.received(frames[i].frame);
-    if (monotonicNow() >= next) {
+    if (port_.monotonicNs() >= next) {
       client.cycle();
       port_.beginCycle();
       next += kStepNs;

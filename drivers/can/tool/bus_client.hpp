@@ -12,9 +12,6 @@
 
 namespace stride::can::tool {
 
-/// The system's monotonic clock. [ns]
-int64_t monotonicNow();
-
 /// What has become of a transfer.
 struct Transfer {
   bool done = false;
@@ -25,7 +22,7 @@ struct Transfer {
 
 class BusClient {
 public:
-  /// The port must live as long as this.
+  /// The port has a clock (monotonicNs), and must live as long as this.
   explicit BusClient(Port &port) : port_(port) {}
 
   /// Reads an object; answers may take `timeoutNs` each.

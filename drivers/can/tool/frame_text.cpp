@@ -153,7 +153,7 @@ std::string describe(const Frame &frame, const std::vector<KnownDrive> &drives) 
   if (frame.id >= kTpdoBase && frame.id < kSdoAnswerBase && node != 0) {
     const unsigned number = (frame.id - kTpdoBase) / 0x100 + 1;
     const bool sent = (frame.id & 0x80) != 0;
-    return fmt::format("{}{} of node {}", sent ? "TPDO" : "RPDO", sent ? number : number, node);
+    return fmt::format("{}{} of node {}", sent ? "TPDO" : "RPDO", number, node);
   }
   return "";
 }

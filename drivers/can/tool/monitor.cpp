@@ -2,7 +2,6 @@
 
 #include "drivers/can/plan/group_plan.hpp"
 #include "drivers/can/socket/socket_can_port.hpp"
-#include "drivers/can/tool/bus_client.hpp"
 #include "drivers/can/tool/commands.hpp"
 #include "drivers/can/tool/frame_text.hpp"
 #include "drivers/can/tool/tool_support.hpp"
@@ -39,13 +38,13 @@ int monitor(const MonitorOptions &options) {
   if (!isUp(port, options.interface))
     return kBad;
   constexpr int64_t kTenthNs = 100000000;
-  const int64_t begin = monotonicNow();
+  const int64_t begin = port.monotonicNs();
   const int64_t end =
       options.seconds > 0 ? begin + static_cast<int64_t>(options.seconds * 1e9) : INT64_MAX;
   std::array<Received, 32> frames;
   int64_t first = -1;
-  for (uint64_t seen = 0; !interrupted() && monotonicNow() < end;) {
-    port.wait(std::min(end, monotonicNow() + kTenthNs));
+  for (uint64_t seen = 0; !interrupted() && port.monotonicNs() < end;) {
+    port.wait(std::min(end, port.monotonicNs() + kTenthNs));
     port.beginCycle();
     const size_t count = port.receive(frames);
     for (size_t i = 0; i < count; ++i) {

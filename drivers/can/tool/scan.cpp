@@ -10,14 +10,7 @@
 namespace stride::can::tool {
 namespace {
 
-uint32_t numberOf(const Transfer &transfer) {
-  uint32_t value = 0;
-  for (size_t i = 0; i < transfer.bytes.size() && i < sizeof value; ++i)
-    value |= uint32_t{transfer.bytes[i]} << 8 * i;
-  return value;
-}
-
-std::string profileName(uint32_t deviceType) {
+std::string profileName(uint64_t deviceType) {
   switch (deviceType & 0xFFFF) {
   case 401:
     return "inputs and outputs (CiA 401)";
@@ -49,11 +42,11 @@ int scan(const ScanOptions &options) {
     if (!isUp(port, options.interface))
       return kBad;
     ++found;
-    std::string line = fmt::format("{:3}  {}", node, profileName(numberOf(type)));
+    std::string line = fmt::format("{:3}  {}", node, profileName(numberOf(type.bytes)));
     const char *names[] = {"vendor", "product", "revision", "serial"};
     for (uint8_t sub = 1; sub <= 4; ++sub)
       if (const Transfer part = client.read(id, {object::kIdentity, sub}, timeout); part.done)
-        line += fmt::format("  {} {:08X}h", names[sub - 1], numberOf(part));
+        line += fmt::format("  {} {:08X}h", names[sub - 1], numberOf(part.bytes));
     fmt::print("{}\n", line);
   }
   if (found == 0)

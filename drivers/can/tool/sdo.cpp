@@ -36,13 +36,6 @@ const NumberType *typeNamed(std::string_view name) {
   return nullptr;
 }
 
-uint64_t bitsOf(const std::vector<uint8_t> &bytes) {
-  uint64_t value = 0;
-  for (size_t i = 0; i < bytes.size() && i < sizeof value; ++i)
-    value |= uint64_t{bytes[i]} << 8 * i;
-  return value;
-}
-
 int64_t withSign(uint64_t bits, size_t bytes) {
   const unsigned unused = 64 - 8 * static_cast<unsigned>(bytes);
   return static_cast<int64_t>(bits << unused) >> unused;
@@ -61,12 +54,12 @@ std::string shown(const std::vector<uint8_t> &bytes, const std::string &typeName
   if (typeName == "string")
     return {bytes.begin(), bytes.end()};
   if (const NumberType *type = typeNamed(typeName))
-    return type->isSigned ? fmt::format("{}", withSign(bitsOf(bytes), type->bytes))
-                          : fmt::format("{}", bitsOf(bytes));
+    return type->isSigned ? fmt::format("{}", withSign(numberOf(bytes), type->bytes))
+                          : fmt::format("{}", numberOf(bytes));
   const bool isNumber = bytes.size() == 1 || bytes.size() == 2 || bytes.size() == 4;
   if (typeName == "hex" || !isNumber)
     return hexOf(bytes);
-  const uint64_t bits = bitsOf(bytes);
+  const uint64_t bits = numberOf(bytes);
   const int64_t number = withSign(bits, bytes.size());
   return number < 0 ? fmt::format("{} ({}, {:0{}X}h)", bits, number, bits, bytes.size() * 2)
                     : fmt::format("{} ({:0{}X}h)", bits, bits, bytes.size() * 2);
@@ -115,9 +108,9 @@ std::optional<Object> objectOf(const SdoOptions &options) {
 
 /// Whether the node's heartbeat says within a second that it is operational.
 bool isOperational(SocketCanPort &port, int node) {
-  const int64_t end = monotonicNow() + 1000000000;
+  const int64_t end = port.monotonicNs() + 1000000000;
   std::array<Received, 32> frames;
-  while (monotonicNow() < end && !interrupted()) {
+  while (port.monotonicNs() < end && !interrupted()) {
     port.wait(end);
     const size_t count = port.receive(frames);
     for (size_t i = 0; i < count; ++i)

@@ -4,7 +4,6 @@
 #include "drivers/can/simulated_network.hpp"
 #include "drivers/can/simulation/node_host.hpp"
 #include "drivers/can/socket/socket_can_port.hpp"
-#include "drivers/can/tool/bus_client.hpp"
 #include "drivers/can/tool/commands.hpp"
 #include "drivers/can/tool/tool_support.hpp"
 
@@ -45,7 +44,7 @@ int simulate(const SimulateOptions &options) {
   if (!isUp(port, interface))
     return kBad;
   SimulatedNodes nodes = simulatedNodes(*group);
-  const int64_t begin = monotonicNow();
+  const int64_t begin = port.monotonicNs();
   const int64_t end =
       options.seconds > 0 ? begin + static_cast<int64_t>(options.seconds * 1e9) : INT64_MAX;
   simulation::NodeHost host(port);
@@ -66,7 +65,7 @@ int simulate(const SimulateOptions &options) {
   fmt::print("{} nodes on {}\n", count, interface);
   std::fflush(stdout);
   constexpr int64_t kTenthNs = 100000000;
-  for (int64_t now = begin; !interrupted() && now < end; now = monotonicNow()) {
+  for (int64_t now = begin; !interrupted() && now < end; now = port.monotonicNs()) {
     port.beginCycle();
     host.step(now);
     port.wait(std::min({end, now + kTenthNs, host.nextNs()}));

@@ -69,6 +69,13 @@ std::string textOf(Object object) {
                          : fmt::format("{:04X}h:{:X}", object.index, object.sub);
 }
 
+uint64_t numberOf(std::span<const uint8_t> bytes) {
+  uint64_t value = 0;
+  for (size_t i = 0; i < bytes.size() && i < sizeof value; ++i)
+    value |= uint64_t{bytes[i]} << 8 * i;
+  return value;
+}
+
 std::vector<bus::GroupSetup> canGroups(const std::string &application) {
   const app::Application loaded = app::Application::load(application, host::runtimeLayouts());
   const StrideAppV1 &app = loaded.description();

@@ -5,7 +5,9 @@
 #include "drivers/can/plan/objects.hpp"
 #include "runtime/bus/group_setup.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +30,9 @@ bool isUp(SocketCanPort &port, const std::string &interface);
 /// "6064h", "0x6064:1", "1018:1": index and subindex in hexadecimal.
 std::optional<Object> objectOfText(std::string_view text);
 std::string textOf(Object object);
+
+/// Bytes as a number, least byte first; of more than eight the first ones.
+uint64_t numberOf(std::span<const uint8_t> bytes);
 
 /// The drive groups on CAN of a built application. Throws app::Error.
 std::vector<bus::GroupSetup> canGroups(const std::string &application);
