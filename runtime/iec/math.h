@@ -16,6 +16,11 @@ namespace stride {
 LREAL sin(LREAL x);
 LREAL cos(LREAL x);
 LREAL tan(LREAL x);
+/// Both of one angle, with the same bits as sin and cos.
+struct SineCosine {
+  LREAL s, c;
+};
+SineCosine sineCosine(LREAL x);
 LREAL asin(LREAL x);
 LREAL acos(LREAL x);
 LREAL atan(LREAL x);

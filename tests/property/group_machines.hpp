@@ -4,6 +4,7 @@
 
 #include "runtime/numeric/group/group_motion.hpp"
 #include "runtime/numeric/kinematics/any_kinematics.hpp"
+#include "runtime/numeric/kinematics/arms.hpp"
 #include "runtime/numeric/kinematics/hands.hpp"
 #include "runtime/numeric/kinematics/planar_arms.hpp"
 #include "runtime/numeric/kinematics/portals.hpp"
@@ -61,6 +62,18 @@ inline Machine articulated() {
   machine.kinematics.setHand(kinematics::HandKind::Wrist3, kinematics::Wrist3{{0, 0, 80}});
   machine.joints = 6;
   const double home[] = {5, -60, 30, 12, 60, -20};
+  std::copy(std::begin(home), std::end(home), machine.home);
+  machine.spread = 12;
+  return machine;
+}
+
+/// With a wrist whose axes do not meet.
+inline Machine offsetWrist() {
+  Machine machine;
+  machine.kinematics.setArm(kinematics::ArmKind::OffsetWristArm,
+                            kinematics::OffsetWristArm{160, -425, -392, 133, 100, 97});
+  machine.joints = 6;
+  const double home[] = {5, -60, 70, 20, 80, -20};
   std::copy(std::begin(home), std::end(home), machine.home);
   machine.spread = 12;
   return machine;

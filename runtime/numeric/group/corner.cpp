@@ -24,6 +24,9 @@ End over(const Series &series, double speed) noexcept {
 }
 
 Series valueOf(const Quintic &polynomial, const Series &u) noexcept {
+  const double(&c)[6] = polynomial.c;
+  if (c[5] == 0.0 && c[4] == 0.0 && c[3] == 0.0 && c[2] == 0.0 && c[1] == 0.0)
+    return Series(c[0] + 0.0); // as of axes that there are not
   Series sum(polynomial.c[5]);
   for (int k = 4; k >= 0; --k)
     sum = sum * u + Series(polynomial.c[k]);
@@ -98,11 +101,10 @@ Corner axesCorner(const AxesEnd &before, const AxesEnd &after) noexcept {
 }
 
 void placeAt(const Corner &corner, const Series &way, PathPlace &place) noexcept {
-  const Series x = way * Series(1.0 / corner.length);
+  const Series x = way * (1.0 / corner.length);
   const double change = corner.last - corner.first;
   const Series cube = x * x * x;
-  const Series u = Series(corner.length) *
-                   (Series(corner.first) * x + Series(change) * (cube - Series(0.5) * cube * x));
+  const Series u = corner.length * (corner.first * x + change * (cube - 0.5 * cube * x));
   place.byTool = corner.byTool;
   for (int32_t k = corner.byTool ? kArmAxes : 0; k < kAxes; ++k)
     place.axes[k] = valueOf(corner.axes[k], u);
@@ -110,11 +112,16 @@ void placeAt(const Corner &corner, const Series &way, PathPlace &place) noexcept
     return;
   for (int i = 0; i < 3; ++i)
     place.tool.place(i) = valueOf(corner.place[i], u);
-  const Series left = valueOf(corner.leaves, u) * Series(corner.before.rate);
-  const Series entered = valueOf(corner.enters, u) * Series(corner.after.rate);
-  place.tool.turn = kinematics::about(vectorOf(corner.after.about), entered) *
-                    (kinematics::about(vectorOf(corner.before.about), left) *
-                     matrixOf(corner.turn).cast<Series>());
+  // A tool that does not turn on a leg need not be looked at further.
+  const bool leaves = corner.before.rate != 0.0;
+  const bool enters = corner.after.rate != 0.0;
+  const Series left = leaves ? valueOf(corner.leaves, u) * corner.before.rate : Series(0.0);
+  place.tool.turn = turnedOn(corner.before.about, left, corner.turn);
+  if (enters)
+    place.tool.turn =
+        kinematics::times(kinematics::about(vectorOf(corner.after.about),
+                                            valueOf(corner.enters, u) * corner.after.rate),
+                          place.tool.turn);
 }
 
 } // namespace stride::group

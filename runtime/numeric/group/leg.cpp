@@ -39,17 +39,15 @@ double stillLength(const Leg &leg) noexcept {
 
 /// The sum a + b * series, vector by vector.
 Vector<Series> alongLine(const Vector3 &a, const Vector3 &b, const Series &series) noexcept {
-  return {Series(a.x) + Series(b.x) * series, Series(a.y) + Series(b.y) * series,
-          Series(a.z) + Series(b.z) * series};
+  return {Series(a.x) + b.x * series, Series(a.y) + b.y * series, Series(a.z) + b.z * series};
 }
 
 Vector<Series> alongCircle(const Leg &leg, const Series &way) noexcept {
-  const kinematics::TurnOf<Series> t = kinematics::turnBy(way * Series(1.0 / leg.radius));
+  const kinematics::TurnOf<Series> t = kinematics::turnBy(way * (1.0 / leg.radius));
   const Vector3 &a = leg.first;
   const Vector3 &b = leg.second;
-  return {Series(leg.start.x) + Series(a.x) * t.c + Series(b.x) * t.s,
-          Series(leg.start.y) + Series(a.y) * t.c + Series(b.y) * t.s,
-          Series(leg.start.z) + Series(a.z) * t.c + Series(b.z) * t.s};
+  return {Series(leg.start.x) + a.x * t.c + b.x * t.s, Series(leg.start.y) + a.y * t.c + b.y * t.s,
+          Series(leg.start.z) + a.z * t.c + b.z * t.s};
 }
 
 } // namespace
@@ -100,18 +98,15 @@ Leg axesLeg(const double (&from)[kAxes], const double (&to)[kAxes], const double
 }
 
 void placeAt(const Leg &leg, const Series &way, PathPlace &place) noexcept {
-  Series part = way;
-  for (double &coefficient : part.c) // exactly 1 at the end
-    coefficient /= leg.length;
+  const Series part = way / leg.length; // exactly 1 at the end
   place.byTool = leadsTool(leg);
   for (int32_t k = place.byTool ? kArmAxes : 0; k < kAxes; ++k)
-    place.axes[k] = Series(leg.from[k]) + Series(leg.delta[k]) * part;
+    place.axes[k] = Series(leg.from[k]) + leg.delta[k] * part;
   if (!place.byTool)
     return;
   place.tool.place =
       leg.kind == LegKind::Circle ? alongCircle(leg, way) : alongLine(leg.start, leg.first, way);
-  place.tool.turn = kinematics::about(vectorOf(leg.about), part * Series(leg.angle)) *
-                    matrixOf(leg.turn).cast<Series>();
+  place.tool.turn = turnedOn(leg.about, part * leg.angle, leg.turn);
 }
 
 Pose endOf(const Leg &leg) noexcept {

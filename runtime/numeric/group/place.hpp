@@ -28,6 +28,10 @@ inline Series growing(double way, double rate) noexcept {
   return series;
 }
 
+inline bool isZero(const Series &series) noexcept {
+  return series.c[0] == 0.0 && series.c[1] == 0.0 && series.c[2] == 0.0 && series.c[3] == 0.0;
+}
+
 /// The tool: where its point is [u] and how it is turned, by rows. Trivially copyable.
 struct Pose {
   Vector3 place;
@@ -70,6 +74,15 @@ inline Frame<double> valueOf(const Frame<Series> &frame) noexcept {
       value.turn(row, column) = frame.turn(row, column).c[0];
   }
   return value;
+}
+
+/// An orientation, given by rows, turned on about an axis of the machine by an angle [rad]. As a
+/// rule the tool does not turn: then it is the orientation itself.
+inline Matrix<Series> turnedOn(const Vector3 &about, const Series &angle,
+                               const double (&rows)[9]) noexcept {
+  if (isZero(angle))
+    return (matrixOf(rows).array() + 0.0).matrix().cast<Series>();
+  return kinematics::times(kinematics::about(vectorOf(about), angle), matrixOf(rows));
 }
 
 /// A place of the path as series over the way. Either the tool or the axes of the kinematics lead;

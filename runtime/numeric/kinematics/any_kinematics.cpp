@@ -21,6 +21,17 @@ template <class Scalar> const HandFunctions<Scalar> &functionsOf(const HandTable
     return table.jets;
 }
 
+/// The tool's frame in that of the last joint.
+Frame<double> toolOf(const AnyKinematics &kinematics) {
+  Frame<double> tool;
+  for (int row = 0; row < 3; ++row) {
+    tool.place(row) = kinematics.toolPlace[row];
+    for (int column = 0; column < 3; ++column)
+      tool.turn(row, column) = kinematics.toolTurn[row][column];
+  }
+  return tool;
+}
+
 /// The numbers of one kind of scalar for both parts of a kinematics, joints in radians.
 template <class Scalar> class Parts {
 public:
@@ -42,16 +53,10 @@ public:
     end = tool;
     if (!kinematics_.hasTool)
       return Outcome::Done;
-    Matrix<Scalar> turn;
-    Vector<Scalar> place;
-    for (int row = 0; row < 3; ++row) {
-      place(row) = Scalar(kinematics_.toolPlace[row]);
-      for (int column = 0; column < 3; ++column)
-        turn(row, column) = Scalar(kinematics_.toolTurn[row][column]);
-    }
-    end.turn = tool.turn * turn.transpose();
+    const Frame<double> own = toolOf(kinematics_);
+    end.turn = times(tool.turn, Matrix<double>(own.turn.transpose()));
     const Outcome outcome = reachedTurn(posture, reference, end.turn);
-    end.place -= end.turn * place;
+    end.place -= times(end.turn, own.place);
     return outcome;
   }
 
@@ -63,21 +68,19 @@ public:
       return arm.inverse(kinematics_.armMeasure, end, posture, reference, joints);
     const HandFunctions<Scalar> &hand = functionsOf<Scalar>(hand_);
     Frame<Scalar> flange{hand.nearest(end.turn), end.place};
-    const Matrix<Scalar> turn = flange.turn;
     Scalar *handJoints = joints + arm_.joints;
     const double *handReference = reference + arm_.joints;
     if (arm_.keepsTurn) {
-      hand.turnTo(kinematics_.handMeasure, turn, posture, handReference, handJoints);
+      hand.turnTo(kinematics_.handMeasure, flange.turn, posture, handReference, handJoints);
       flange.place -= hand.forward(kinematics_.handMeasure, handJoints).place;
       return arm.inverse(kinematics_.armMeasure, flange, posture, reference, joints);
     }
-    flange.place -= turn * hand_.offset(kinematics_.handMeasure).template cast<Scalar>();
+    flange.place -= times(flange.turn, hand_.offset(kinematics_.handMeasure));
     const Outcome outcome = arm.inverse(kinematics_.armMeasure, flange, posture, reference, joints);
     if (outcome != Outcome::Done)
       return outcome;
-    (void)armForward(joints, flange);
-    const Matrix<Scalar> rest = flange.turn.transpose() * turn;
-    hand.turnTo(kinematics_.handMeasure, rest, posture, handReference, handJoints);
+    hand.turnTo(kinematics_.handMeasure, arm.rest(kinematics_.armMeasure, joints, flange.turn),
+                posture, handReference, handJoints);
     return Outcome::Done;
   }
 
@@ -192,21 +195,18 @@ Outcome forwardOf(const AnyKinematics &kinematics, const Scalar *axes, Frame<Sca
     return Outcome::NotSet;
   Scalar joints[kMostJoints];
   const unsigned turning = kinematics.turning();
-  for (int i = 0; i < kinematics.joints(); ++i) {
+  const int count = kinematics.joints();
+  for (int i = 0; i < count; ++i) {
     joints[i] = axes[i] - Scalar(kinematics.offset[i]);
     if ((turning >> i & 1U) != 0)
-      joints[i] = joints[i] * Scalar(kDegree);
+      joints[i] = joints[i] * kDegree;
   }
   const Outcome outcome = Parts<Scalar>(kinematics).forward(joints, tool);
   if (!kinematics.hasTool)
     return outcome;
-  Frame<Scalar> offset;
-  for (int row = 0; row < 3; ++row) {
-    offset.place(row) = Scalar(kinematics.toolPlace[row]);
-    for (int column = 0; column < 3; ++column)
-      offset.turn(row, column) = Scalar(kinematics.toolTurn[row][column]);
-  }
-  tool = tool * offset;
+  const Frame<double> own = toolOf(kinematics);
+  tool.place += times(tool.turn, own.place);
+  tool.turn = times(tool.turn, own.turn);
   return outcome;
 }
 
@@ -216,8 +216,9 @@ Outcome inverseOf(const AnyKinematics &kinematics, const Frame<Scalar> &tool, Po
   if (kinematics.arm == ArmKind::None)
     return Outcome::NotSet;
   const unsigned turning = kinematics.turning();
+  const int count = kinematics.joints();
   double near[kMostJoints];
-  for (int i = 0; i < kinematics.joints(); ++i) {
+  for (int i = 0; i < count; ++i) {
     near[i] = reference[i] - kinematics.offset[i];
     if ((turning >> i & 1U) != 0)
       near[i] *= kDegree;
@@ -230,9 +231,9 @@ Outcome inverseOf(const AnyKinematics &kinematics, const Frame<Scalar> &tool, Po
     outcome = parts.inverse(end, posture, near, joints);
   if (outcome != Outcome::Done)
     return outcome;
-  for (int i = 0; i < kinematics.joints(); ++i) {
+  for (int i = 0; i < count; ++i) {
     const bool turns = (turning >> i & 1U) != 0;
-    axes[i] = (turns ? joints[i] / Scalar(kDegree) : joints[i]) + Scalar(kinematics.offset[i]);
+    axes[i] = (turns ? joints[i] / kDegree : joints[i]) + Scalar(kinematics.offset[i]);
     if (!bringIntoRange(kinematics.range[i], turns, valueIn(axes[i])))
       outcome = Outcome::OutOfLimits;
   }
@@ -400,9 +401,11 @@ Posture AnyKinematics::postureOf(const double *axes) const {
   if (arm == ArmKind::None)
     return {};
   double joint[kMostJoints];
-  for (int i = 0; i < joints(); ++i) {
+  const unsigned turns = turning();
+  const int count = joints();
+  for (int i = 0; i < count; ++i) {
     joint[i] = axes[i] - offset[i];
-    if ((turning() >> i & 1U) != 0)
+    if ((turns >> i & 1U) != 0)
       joint[i] *= kDegree;
   }
   Posture posture = tableOf(arm).postureOf(armMeasure, joint);

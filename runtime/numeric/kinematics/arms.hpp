@@ -24,6 +24,32 @@ Frame<Scalar> chainStep(const Scalar &turn, double alongZ, double alongX, int qu
   return step;
 }
 
+/// Turns a frame's axes on by such a step, without the products with zeros.
+template <class Scalar> void addTurn(Matrix<Scalar> &turn, const TurnOf<Scalar> &t, int quarter) {
+  for (int row = 0; row < 3; ++row) {
+    Scalar &first = turn(row, 0);
+    Scalar &second = turn(row, 1);
+    Scalar &third = turn(row, 2);
+    const Scalar turned = withoutMinus0(first * t.c + second * t.s);
+    const Scalar across = withoutMinus0(second * t.c - first * t.s);
+    first = turned;
+    second = quarter == 0 ? across : withoutMinus0(third * quarter);
+    third = quarter == 0 ? third : withoutMinus0(across * -quarter);
+  }
+}
+
+/// `pose` * chainStep(...), likewise.
+template <class Scalar>
+void addStep(Frame<Scalar> &pose, const Scalar &turn, double alongZ, double alongX, int quarter) {
+  const TurnOf<Scalar> t = turnBy(turn);
+  const Scalar x = t.c * alongX;
+  const Scalar y = t.s * alongX;
+  for (int row = 0; row < 3 && (alongX != 0 || alongZ != 0); ++row)
+    pose.place(row) +=
+        withoutMinus0(pose.turn(row, 0) * x + (pose.turn(row, 1) * y + pose.turn(row, 2) * alongZ));
+  addTurn(pose.turn, t, quarter);
+}
+
 /// Three turning axes that carry a wrist's centre: the first one upright, the others parallel to
 /// each other. At zero the upper arm stands upright and the forearm points to +x. Posture:
 /// `backwards` where the arm reaches over its own head, `elbow` where the elbow is below the line
@@ -55,10 +81,18 @@ struct ArmRrr {
   }
 
   template <class Scalar> Outcome forward(const Scalar *joints, Frame<Scalar> &pose) const {
-    pose = chainStep(joints[0], d1, a1, 1) * chainStep(joints[1] + Scalar(kPi / 2), 0, a2, 0) *
-           chainStep(joints[2], d3, a3, 1);
-    pose.place += pose.turn.col(2) * Scalar(d4);
+    pose = chainStep(joints[0], d1, a1, 1);
+    addStep(pose, joints[1] + Scalar(kPi / 2), 0, a2, 0);
+    addStep(pose, joints[2], d3, a3, 1);
+    for (int row = 0; row < 3; ++row)
+      pose.place(row) += pose.turn(row, 2) * d4;
     return a2 > 0 && forearm() > 0 ? Outcome::Done : Outcome::WrongMeasures;
+  }
+  template <class Scalar> Matrix<Scalar> flangeTurn(const Scalar *joints) const {
+    Matrix<Scalar> turn = chainStep(joints[0], 0, 0, 1).turn;
+    addTurn(turn, turnBy(joints[1] + Scalar(kPi / 2)), 0);
+    addTurn(turn, turnBy(joints[2]), 1);
+    return turn;
   }
 
   template <class Scalar>
@@ -72,9 +106,8 @@ struct ArmRrr {
     const Scalar way = posture.backwards ? -rootOf(inFront) : rootOf(inFront);
     // The first axis turns (way, -d3) to (x, y).
     const bool above = valueOf(x) == 0 && valueOf(y) == 0;
-    joints[0] =
-        above ? Scalar(reference[0])
-              : nearTo(reference[0], angleOf(y * way + x * Scalar(d3), x * way - y * Scalar(d3)));
+    joints[0] = above ? Scalar(reference[0])
+                      : nearTo(reference[0], angleOf(y * way + x * d3, x * way - y * d3));
     Scalar angle[2];
     const Outcome outcome =
         bendArm(a2, forearm(), way - Scalar(a1), pose.place(2) - Scalar(d1),
@@ -171,9 +204,12 @@ struct OffsetWristArm {
   Posture postureOf(const double *joints) const noexcept;
 
   template <class Scalar> Outcome forward(const Scalar *joints, Frame<Scalar> &pose) const {
-    pose = chainStep(joints[0], d1, 0, 1) * chainStep(joints[1], 0, a2, 0) *
-           chainStep(joints[2], 0, a3, 0) * chainStep(joints[3], d4, 0, 1) *
-           chainStep(joints[4], d5, 0, -1) * chainStep(joints[5], d6, 0, 0);
+    pose = chainStep(joints[0], d1, 0, 1);
+    addStep(pose, joints[1], 0, a2, 0);
+    addStep(pose, joints[2], 0, a3, 0);
+    addStep(pose, joints[3], d4, 0, 1);
+    addStep(pose, joints[4], d5, 0, -1);
+    addStep(pose, joints[5], d6, 0, 0);
     return a2 != 0 && a3 != 0 ? Outcome::Done : Outcome::WrongMeasures;
   }
   template <class Scalar>
@@ -197,14 +233,16 @@ template <class Scalar>
 Outcome OffsetWristArm::inverse(const Frame<Scalar> &pose, Posture posture, const double *reference,
                                 Scalar *joints) const {
   const Vector<Scalar> approach = pose.turn.col(2);
-  const Vector<Scalar> wrist = pose.place - approach * Scalar(d6);
+  Vector<Scalar> wrist;
+  for (int row = 0; row < 3; ++row)
+    wrist(row) = pose.place(row) - approach(row) * d6;
   // d4 stands at right angles to the arm's plane: joint 0 turns (way, -d4) to (x, y) of the wrist.
   const Scalar inFront = square(wrist(0)) + square(wrist(1)) - Scalar(d4 * d4);
   if (isNegative(inFront))
     return Outcome::Unreachable;
   const Scalar way = posture.backwards ? -rootOf(inFront) : rootOf(inFront);
-  joints[0] = nearTo(reference[0], angleOf(wrist(1) * way + wrist(0) * Scalar(d4),
-                                           wrist(0) * way - wrist(1) * Scalar(d4)));
+  joints[0] =
+      nearTo(reference[0], angleOf(wrist(1) * way + wrist(0) * d4, wrist(0) * way - wrist(1) * d4));
   const TurnOf<Scalar> base = turnBy(joints[0]);
   // Axes of the tool seen from the arm's plane: in front, above, and at right angles (the axis of
   // joints 1 to 3).
@@ -227,24 +265,24 @@ Outcome OffsetWristArm::inverse(const Frame<Scalar> &pose, Posture posture, cons
     // The last axis is parallel to joints 1 to 3: only its sum with theirs counts.
     joints[5] = Scalar(reference[5]);
     const TurnOf<Scalar> last = turnBy(joints[5]);
-    const Scalar side(valueOf(z[2]) < 0 ? -1.0 : 1.0);
+    const double side = valueOf(z[2]) < 0 ? -1.0 : 1.0;
     sum = angleOf(side * (x[1] * last.c - y[1] * last.s), side * (x[0] * last.c - y[0] * last.s));
   } else {
-    const Scalar side(posture.hand ? 1.0 : -1.0);
+    const double side = posture.hand ? 1.0 : -1.0;
     joints[5] = nearTo(reference[5], angleOf(-side * y[2], side * x[2]));
     sum = angleOf(-side * z[1], -side * z[0]);
   }
   // Back from the wrist along d5, which stands at right angles to joint 3's x axis in the arm's
   // plane.
   const TurnOf<Scalar> tilt = turnBy(sum);
-  const Scalar forth = way - Scalar(d5) * tilt.s;
-  const Scalar up = wrist(2) - Scalar(d1) + Scalar(d5) * tilt.c;
+  const Scalar forth = way - d5 * tilt.s;
+  const Scalar up = wrist(2) - Scalar(d1) + d5 * tilt.c;
   // Negative links are positive ones that look the other way.
   const double flip = a2 < 0 ? -1.0 : 1.0;
   const bool mixed = (a2 < 0) != (a3 < 0);
   Scalar angle[2];
-  const Outcome outcome = bendArm(exact::fabs(a2), exact::fabs(a3), Scalar(flip) * forth,
-                                  Scalar(flip) * up, posture.elbow != mixed, reference[1], angle);
+  const Outcome outcome = bendArm(exact::fabs(a2), exact::fabs(a3), flip * forth, flip * up,
+                                  posture.elbow != mixed, reference[1], angle);
   if (outcome != Outcome::Done)
     return outcome;
   const Scalar elbow = mixed ? angle[1] - Scalar(kPi) : angle[1];

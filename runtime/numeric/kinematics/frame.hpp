@@ -31,10 +31,49 @@ template <class Scalar> struct Frame {
   Vector<Scalar> place;
 };
 
+/// The products a * b and a^T * b, with the sums in Eigen's order: its own of jets are not inlined.
+/// In a product `b` may be of numbers.
+template <class Scalar, class Other>
+Matrix<Scalar> times(const Matrix<Scalar> &a, const Matrix<Other> &b) {
+  Matrix<Scalar> product;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row)
+      product(row, column) =
+          a(row, 0) * b(0, column) + (a(row, 1) * b(1, column) + a(row, 2) * b(2, column));
+  return product;
+}
+template <class Scalar>
+Matrix<Scalar> transposedTimes(const Matrix<Scalar> &a, const Matrix<Scalar> &b) {
+  Matrix<Scalar> product;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row)
+      product(row, column) =
+          a(0, row) * b(0, column) + (a(1, row) * b(1, column) + a(2, row) * b(2, column));
+  return product;
+}
+/// a^T * b where `a` turns about z.
+template <class Scalar>
+Matrix<Scalar> uprightTimes(const Matrix<Scalar> &a, const Matrix<Scalar> &b) {
+  Matrix<Scalar> product;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 2; ++row)
+      product(row, column) = withoutMinus0(a(0, row) * b(0, column) + a(1, row) * b(1, column));
+    product(2, column) = Scalar(0.0) + b(2, column);
+  }
+  return product;
+}
+template <class Scalar, class Other>
+Vector<Scalar> times(const Matrix<Scalar> &a, const Vector<Other> &b) {
+  Vector<Scalar> product;
+  for (int row = 0; row < 3; ++row)
+    product(row) = a(row, 0) * b(0) + (a(row, 1) * b(1) + a(row, 2) * b(2));
+  return product;
+}
+
 /// The frame `inner`, given in `outer`, in that in which `outer` is given.
 template <class Scalar>
 Frame<Scalar> operator*(const Frame<Scalar> &outer, const Frame<Scalar> &inner) {
-  return {outer.turn * inner.turn, outer.turn * inner.place + outer.place};
+  return {times(outer.turn, inner.turn), times(outer.turn, inner.place) + outer.place};
 }
 
 template <class Scalar> Frame<Scalar> unturned(const Vector<Scalar> &place) {
@@ -56,12 +95,14 @@ template <class Scalar> Matrix<Scalar> aboutY(const Scalar &angle) {
   turn << t.c, zero, t.s, zero, Scalar(1.0), zero, -t.s, zero, t.c;
   return turn;
 }
-template <class Scalar> Matrix<Scalar> aboutZ(const Scalar &angle) {
-  const TurnOf<Scalar> t = turnBy(angle);
+template <class Scalar> Matrix<Scalar> turnAboutZBy(const TurnOf<Scalar> &t) {
   const Scalar zero(0.0);
   Matrix<Scalar> turn;
   turn << t.c, -t.s, zero, t.s, t.c, zero, zero, zero, Scalar(1.0);
   return turn;
+}
+template <class Scalar> Matrix<Scalar> aboutZ(const Scalar &angle) {
+  return turnAboutZBy(turnBy(angle));
 }
 
 /// A turn about a unit vector by an angle [rad] (Rodrigues).
@@ -71,11 +112,11 @@ template <class Scalar> Matrix<Scalar> about(const Vector<double> &axis, const S
   Matrix<Scalar> turn;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
-      turn(row, column) = rest * Scalar(axis(row) * axis(column));
+      turn(row, column) = rest * (axis(row) * axis(column));
   for (int i = 0; i < 3; ++i) {
     turn(i, i) += t.c;
-    turn((i + 2) % 3, (i + 1) % 3) += t.s * Scalar(axis(i));
-    turn((i + 1) % 3, (i + 2) % 3) -= t.s * Scalar(axis(i));
+    turn((i + 2) % 3, (i + 1) % 3) += t.s * axis(i);
+    turn((i + 1) % 3, (i + 2) % 3) -= t.s * axis(i);
   }
   return turn;
 }

@@ -23,7 +23,7 @@ struct RigidTool {
   Vector<double> offset() const { return {toolX, toolY, toolZ}; }
   /// The tool's frame, where the last joint has turned it.
   template <class Scalar> Frame<Scalar> turnedBy(const Matrix<Scalar> &turn) const {
-    return {turn, turn * offset().template cast<Scalar>()};
+    return {turn, times(turn, offset())};
   }
 };
 
@@ -106,7 +106,7 @@ struct Wrist3 : RigidTool {
   template <class Scalar>
   void turnTo(const Matrix<Scalar> &turn, Posture posture, const double *reference,
               Scalar *joints) const {
-    const Scalar side(posture.hand ? -1.0 : 1.0);
+    const double side = posture.hand ? -1.0 : 1.0;
     const Scalar &x = turn(0, 2);
     const Scalar &y = turn(1, 2);
     const bool inLine = valueOf(x) == 0 && valueOf(y) == 0;

@@ -51,13 +51,30 @@ template <int kOrder> struct Jet {
     return product;
   }
   friend Jet operator/(const Jet &a, const Jet &b) noexcept {
-    Jet quotient(0.0);
-    for (int k = 0; k <= kOrder; ++k) {
-      double rest = a.c[k];
-      for (int i = 0; i < k; ++i)
-        rest -= quotient.c[i] * b.c[k - i];
-      quotient.c[k] = rest / b.c[0];
-    }
+    Jet quotient;
+    const double *const q = quotient.c;
+    quotient.c[0] = a.c[0] / b.c[0];
+    if constexpr (kOrder >= 1)
+      quotient.c[1] = (a.c[1] - q[0] * b.c[1]) / b.c[0];
+    if constexpr (kOrder >= 2)
+      quotient.c[2] = (a.c[2] - q[0] * b.c[2] - q[1] * b.c[1]) / b.c[0];
+    if constexpr (kOrder >= 3)
+      quotient.c[3] = (a.c[3] - q[0] * b.c[3] - q[1] * b.c[2] - q[2] * b.c[1]) / b.c[0];
+    return quotient;
+  }
+
+  // With a constant, the same numbers as with a jet of it.
+  friend Jet operator*(const Jet &a, double b) noexcept {
+    Jet product;
+    for (int k = 0; k <= kOrder; ++k)
+      product.c[k] = 0.0 + a.c[k] * b;
+    return product;
+  }
+  friend Jet operator*(double a, const Jet &b) noexcept { return b * a; }
+  friend Jet operator/(const Jet &a, double b) noexcept {
+    Jet quotient;
+    for (int k = 0; k <= kOrder; ++k)
+      quotient.c[k] = a.c[k] / b;
     return quotient;
   }
 };
@@ -65,16 +82,25 @@ template <int kOrder> struct Jet {
 inline double valueOf(double number) noexcept { return number; }
 template <int kOrder> double valueOf(const Jet<kOrder> &number) noexcept { return number.c[0]; }
 
+/// The same number, but 0 for -0. Products of jets have none.
+inline double withoutMinus0(double number) noexcept { return 0.0 + number; }
+template <int kOrder> const Jet<kOrder> &withoutMinus0(const Jet<kOrder> &number) noexcept {
+  return number;
+}
+
 inline double rootOf(double number) noexcept { return ::stride::sqrt(number); }
 /// The square root; its derivatives are infinite or NaN at 0.
 template <int kOrder> Jet<kOrder> rootOf(const Jet<kOrder> &square) noexcept {
-  Jet<kOrder> root(::stride::sqrt(square.c[0]));
-  for (int k = 1; k <= kOrder; ++k) {
-    double rest = square.c[k];
-    for (int i = 1; i < k; ++i)
-      rest -= root.c[i] * root.c[k - i];
-    root.c[k] = rest / (2 * root.c[0]);
-  }
+  Jet<kOrder> root;
+  const double *const r = root.c;
+  root.c[0] = ::stride::sqrt(square.c[0]);
+  const double twice = 2 * r[0];
+  if constexpr (kOrder >= 1)
+    root.c[1] = square.c[1] / twice;
+  if constexpr (kOrder >= 2)
+    root.c[2] = (square.c[2] - r[1] * r[1]) / twice;
+  if constexpr (kOrder >= 3)
+    root.c[3] = (square.c[3] - r[1] * r[2] - r[2] * r[1]) / twice;
   return root;
 }
 
@@ -83,19 +109,28 @@ template <class Scalar> struct TurnOf { Scalar c, s; };
 
 /// [rad] in
 inline TurnOf<double> turnBy(double angle) noexcept {
-  return {::stride::cos(angle), ::stride::sin(angle)};
+  const SineCosine turn = sineCosine(angle);
+  return {turn.c, turn.s};
 }
 template <int kOrder> TurnOf<Jet<kOrder>> turnBy(const Jet<kOrder> &angle) noexcept {
-  TurnOf<Jet<kOrder>> turn{::stride::cos(angle.c[0]), ::stride::sin(angle.c[0])};
-  for (int k = 1; k <= kOrder; ++k) {
-    double c = 0;
-    double s = 0;
-    for (int i = 1; i <= k; ++i) {
-      c -= i * angle.c[i] * turn.s.c[k - i];
-      s += i * angle.c[i] * turn.c.c[k - i];
-    }
-    turn.c.c[k] = c / k;
-    turn.s.c[k] = s / k;
+  const SineCosine first = sineCosine(angle.c[0]);
+  TurnOf<Jet<kOrder>> turn;
+  double *const c = turn.c.c;
+  double *const s = turn.s.c;
+  c[0] = first.c;
+  s[0] = first.s;
+  const double *const a = angle.c;
+  if constexpr (kOrder >= 1) {
+    c[1] = 0.0 - a[1] * s[0];
+    s[1] = 0.0 + a[1] * c[0];
+  }
+  if constexpr (kOrder >= 2) {
+    c[2] = (0.0 - a[1] * s[1] - 2 * a[2] * s[0]) / 2;
+    s[2] = (0.0 + a[1] * c[1] + 2 * a[2] * c[0]) / 2;
+  }
+  if constexpr (kOrder >= 3) {
+    c[3] = (0.0 - a[1] * s[2] - 2 * a[2] * s[1] - 3 * a[3] * s[0]) / 3;
+    s[3] = (0.0 + a[1] * c[2] + 2 * a[2] * c[1] + 3 * a[3] * c[0]) / 3;
   }
   return turn;
 }
@@ -104,16 +139,24 @@ template <int kOrder> TurnOf<Jet<kOrder>> turnBy(const Jet<kOrder> &angle) noexc
 inline double angleOf(double y, double x) noexcept { return ::stride::atan2(y, x); }
 /// Its derivatives are NaN at (0, 0).
 template <int kOrder> Jet<kOrder> angleOf(const Jet<kOrder> &y, const Jet<kOrder> &x) noexcept {
-  const Jet<kOrder> square = x * x + y * y;
-  Jet<kOrder> angle(::stride::atan2(y.c[0], x.c[0]));
-  // (x^2 + y^2) angle' = x y' - y x', coefficient by coefficient
-  for (int k = 1; k <= kOrder; ++k) {
-    double rest = 0;
-    for (int i = 1; i <= k; ++i)
-      rest += i * (x.c[k - i] * y.c[i] - y.c[k - i] * x.c[i]);
-    for (int i = 1; i < k; ++i)
-      rest -= i * angle.c[i] * square.c[k - i];
-    angle.c[k] = rest / (k * square.c[0]);
+  // (x^2 + y^2) angle' = x y' - y x', coefficient by coefficient; of the first two products of
+  // coefficients of the same order nothing is left.
+  const auto across = [&x, &y](int i, int k) { return x.c[i] * y.c[k] - y.c[i] * x.c[k]; };
+  Jet<kOrder> angle;
+  double *const a = angle.c;
+  a[0] = ::stride::atan2(y.c[0], x.c[0]);
+  const double square = x.c[0] * x.c[0] + y.c[0] * y.c[0];
+  if constexpr (kOrder >= 1)
+    a[1] = (0.0 + across(0, 1)) / square;
+  if constexpr (kOrder >= 2) {
+    const double slope = (x.c[0] * x.c[1] + x.c[1] * x.c[0]) + (y.c[0] * y.c[1] + y.c[1] * y.c[0]);
+    a[2] = (0.0 + 2 * across(0, 2) - a[1] * slope) / (2 * square);
+    if constexpr (kOrder >= 3) {
+      const double bend = (x.c[0] * x.c[2] + x.c[1] * x.c[1] + x.c[2] * x.c[0]) +
+                          (y.c[0] * y.c[2] + y.c[1] * y.c[1] + y.c[2] * y.c[0]);
+      a[3] = (across(2, 1) + 2 * across(1, 2) + 3 * across(0, 3) - a[1] * bend - 2 * a[2] * slope) /
+             (3 * square);
+    }
   }
   return angle;
 }

@@ -60,8 +60,10 @@ enum class Outcome : uint8_t {
 
 /// `angle` plus the whole turns that bring it nearest to `reference`. [rad]
 template <class Scalar> Scalar nearTo(double reference, const Scalar &angle) noexcept {
-  const double turns = exact::floor((reference - valueOf(angle)) / (2 * kPi) + 0.5);
-  return angle + Scalar(2 * kPi * turns);
+  const double turns = (reference - valueOf(angle)) / (2 * kPi) + 0.5;
+  if (turns >= 0 && turns < 1) // as a rule
+    return angle + Scalar(0.0);
+  return angle + Scalar(2 * kPi * exact::floor(turns));
 }
 
 template <class Scalar> bool isNegative(const Scalar &number) noexcept {
@@ -73,6 +75,18 @@ template <class Scalar> Scalar square(const Scalar &number) noexcept { return nu
 /// The turn about z that is nearest to an orientation (least squares of all elements). [rad]
 template <class Scalar> Scalar turnAboutZ(const Matrix<Scalar> &turn) noexcept {
   return angleOf(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+}
+
+/// How an arm's flange is turned: by the model's own `flangeTurn(joints)` if it has one.
+template <class Model, class Scalar>
+Matrix<Scalar> flangeTurnOf(const Model &model, const Scalar *joints) {
+  if constexpr (requires { model.flangeTurn(joints); }) {
+    return model.flangeTurn(joints);
+  } else {
+    Frame<Scalar> flange;
+    (void)model.forward(joints, flange);
+    return flange.turn;
+  }
 }
 
 } // namespace stride::kinematics

@@ -32,8 +32,8 @@ Outcome bendArm(double first, double second, const Scalar &x, const Scalar &y, b
     return Outcome::Done;
   }
   const TurnOf<Scalar> bend = turnBy(angle[1]);
-  const Scalar along = Scalar(first) + Scalar(second) * bend.c;
-  const Scalar aside = Scalar(second) * bend.s;
+  const Scalar along = Scalar(first) + second * bend.c;
+  const Scalar aside = second * bend.s;
   angle[0] = angleOf(y * along - x * aside, x * along + y * aside);
   return Outcome::Done;
 }
@@ -87,6 +87,12 @@ struct Scara2 {
     pose.place = first.col(0) * Scalar(firstArm) + pose.turn.col(0) * Scalar(secondArm);
     return firstArm > 0 && secondArm > 0 ? Outcome::Done : Outcome::WrongMeasures;
   }
+  template <class Scalar> Matrix<Scalar> flangeTurn(const Scalar *joints) const {
+    const TurnOf<Scalar> first = turnBy(joints[0]);
+    const TurnOf<Scalar> second = turnBy(joints[1]);
+    return turnAboutZBy(TurnOf<Scalar>{first.c * second.c - first.s * second.s,
+                                       first.s * second.c + first.c * second.s});
+  }
   template <class Scalar>
   Outcome inverse(const Frame<Scalar> &pose, Posture posture, const double *reference,
                   Scalar *joints) const {
@@ -118,6 +124,9 @@ template <class Flat> struct Lifted {
     const Outcome outcome = flat.forward(joints, pose);
     pose.place(2) += joints[Flat::kJoints];
     return outcome;
+  }
+  template <class Scalar> Matrix<Scalar> flangeTurn(const Scalar *joints) const {
+    return flangeTurnOf(flat, joints);
   }
   template <class Scalar>
   Outcome inverse(const Frame<Scalar> &pose, Posture posture, const double *reference,

@@ -46,6 +46,8 @@ template <class Scalar> struct ArmFunctions {
   Outcome (*forward)(const double *measures, const Scalar *joints, Frame<Scalar> &pose);
   Outcome (*inverse)(const double *measures, const Frame<Scalar> &pose, Posture posture,
                      const double *reference, Scalar *joints);
+  /// What of an orientation is left for a hand.
+  Matrix<Scalar> (*rest)(const double *measures, const Scalar *joints, const Matrix<Scalar> &turn);
 };
 
 /// The functions of one model; `measures` are the members of its structure in their order.
@@ -100,6 +102,13 @@ inline constexpr int kMeasuresOf = __is_empty(Model)
                                        ? 0
                                        : static_cast<int>(sizeof(Model) / sizeof(double));
 
+/// See ArmFunctions::rest.
+template <class Model, bool kUpright, class Scalar>
+Matrix<Scalar> restAfter(const double *measures, const Scalar *joints, const Matrix<Scalar> &turn) {
+  const Matrix<Scalar> flange = flangeTurnOf(modelOf<Model>(measures), joints);
+  return kUpright ? uprightTimes(flange, turn) : transposedTimes(flange, turn);
+}
+
 /// The functions of a model of arms. `kUpright`: see ArmTable.
 template <class Model, bool kUpright> constexpr ArmTable makeArmTable() {
   static_assert(kMeasuresOf<Model> <= kMostArmMeasures && Model::kJoints <= kMostJoints);
@@ -121,6 +130,8 @@ template <class Model, bool kUpright> constexpr ArmTable makeArmTable() {
                              const double *reference, double *joints) {
     return modelOf<Model>(measures).inverse(pose, posture, reference, joints);
   };
+  table.numbers.rest = restAfter<Model, kUpright, double>;
+  table.jets.rest = restAfter<Model, kUpright, Jet<3>>;
   table.jets.forward = [](const double *measures, const Jet<3> *joints, Frame<Jet<3>> &pose) {
     return modelOf<Model>(measures).forward(joints, pose);
   };

@@ -1,6 +1,7 @@
 // What axis groups cost: a cycle while blended lines are driven, what a line costs in planning, and
 // many groups at once. The issue asks for 2 us a cycle of a six-axis arm, 50 us for the planning of
 // a blended line, and a fifth of a core for 100 Scaras at 1 ms.
+#include "runtime/numeric/kinematics/orientation.hpp"
 #include "tests/property/group_machines.hpp"
 
 #include <benchmark/benchmark.h>
@@ -20,14 +21,17 @@ constexpr double kCycle = 0.001;
 /// A group that goes around a polygon of lines, with corners.
 class Round {
 public:
-  explicit Round(Machine machine) : machine_(machine), group_(std::make_unique<GroupMotion>()) {
+  /// `turns`: the tool turns on the lines, as far as the machine can.
+  Round(Machine machine, bool turns)
+      : machine_(machine), turns_(turns), group_(std::make_unique<GroupMotion>()),
+        configuration_(machine_.kinematics.ref().configurationOf(machine_.home)) {
     for (AxisLimits &limits : machine_.limits)
       limits = {300, 3000, 60000, -1e4, 1e4};
     reset(*group_, machine_.home);
     stride::kinematics::Frame<double> frame;
     (void)machine_.kinematics.forward(machine_.home, frame);
     last_ = poseOf(frame);
-    middle_ = last_.place;
+    middle_ = last_;
   }
 
   /// One cycle; there are always lines to go on with.
@@ -35,24 +39,39 @@ public:
     while (group_->next - group_->first < 4)
       order();
     cycle(*group_, arm(), {kCycle, 1, false, 0, 64, 24});
+    const Movement *const active = activeOf(*group_);
+    if (active == nullptr || active->id == seen_)
+      return;
+    seen_ = active->id;
+    corners_ += active->corner.length > 0.0 ? 1 : 0;
   }
 
-  uint64_t lines() const { return group_->lastId; }
-
-  Arm arm() const {
-    return {machine_.kinematics.ref(), machine_.joints, 0, machine_.limits,
-            machine_.kinematics.ref().configurationOf(machine_.home)};
-  }
+  /// Those that have been begun, and how many of them by a corner.
+  uint64_t lines() const { return seen_; }
+  uint64_t corners() const { return corners_; }
+  bool failed() const { return group_->obstacle != Obstacle::None; }
 
 private:
+  Arm arm() const {
+    return {machine_.kinematics.ref(), machine_.joints, 0, machine_.limits, configuration_};
+  }
+
   void order() {
     angle_ += 1.3;
-    Pose to = last_;
-    to.place = {middle_.x + 60 * std::cos(angle_), middle_.y + 60 * std::sin(angle_), middle_.z};
+    Pose to = middle_;
+    to.place.x += 60 * std::cos(angle_);
+    to.place.y += 60 * std::sin(angle_);
+    if (turns_) {
+      stride::kinematics::Matrix<double> turn =
+          matrixOf(middle_.turn) * stride::kinematics::aboutZ(0.2 * std::sin(angle_));
+      if (machine_.joints == 6)
+        turn = turn * stride::kinematics::aboutX(0.15 * std::cos(angle_));
+      setRows(to.turn, turn);
+    }
     Order order{};
     order.path = {400, 4000, 4000, 80000};
     order.velocityFactor = order.accelerationFactor = order.jerkFactor = 1;
-    order.configuration = arm().configuration;
+    order.configuration = configuration_;
     order.transition = Transition::Distance;
     order.transitionValue = 15;
     append(*group_, drawId(*group_), lineLeg(last_, to, {}), order);
@@ -60,15 +79,27 @@ private:
   }
 
   Machine machine_;
+  bool turns_;
   std::unique_ptr<GroupMotion> group_;
+  stride::kinematics::Configuration configuration_;
   Pose last_{};
-  Vector3 middle_{};
+  Pose middle_{};
   double angle_ = 0;
+  uint64_t seen_ = 0;
+  uint64_t corners_ = 0;
 };
 
 Machine machineOf(int64_t kind) {
-  return kind == 0 ? stride::test::gantry()
-                   : (kind == 1 ? stride::test::scara() : stride::test::articulated());
+  switch (kind) {
+  case 0:
+    return stride::test::gantry();
+  case 1:
+    return stride::test::scara();
+  case 2:
+    return stride::test::articulated();
+  default:
+    return stride::test::offsetWrist();
+  }
 }
 
 /// Of each cycle the shortest of all iterations counts, so that what else the machine does does
@@ -77,8 +108,9 @@ void cyclesOfAGroup(benchmark::State &state) {
   constexpr size_t kCycles = 20000;
   std::vector<double> microseconds(kCycles, HUGE_VAL);
   uint64_t lines = 0;
+  uint64_t corners = 0;
   for (auto _ : state) {
-    Round round(machineOf(state.range(0)));
+    Round round(machineOf(state.range(0)), state.range(1) != 0);
     double total = 0;
     for (double &least : microseconds) {
       const auto begin = std::chrono::steady_clock::now();
@@ -89,6 +121,9 @@ void cyclesOfAGroup(benchmark::State &state) {
       total += time.count();
     }
     lines = round.lines();
+    corners = round.corners();
+    if (round.failed())
+      state.SkipWithError("the group has failed");
     state.SetIterationTime(total * 1e-6);
   }
   double sum = 0;
@@ -97,6 +132,7 @@ void cyclesOfAGroup(benchmark::State &state) {
   std::sort(microseconds.begin(), microseconds.end());
   state.counters["mean_us"] = sum / kCycles;
   state.counters["lines"] = static_cast<double>(lines);
+  state.counters["corners"] = static_cast<double>(corners);
   state.counters["median_us"] = microseconds[kCycles / 2];
   state.counters["p99_us"] = microseconds[kCycles * 99 / 100];
   state.counters["p9999_us"] = microseconds[kCycles * 9999 / 10000];
@@ -104,13 +140,17 @@ void cyclesOfAGroup(benchmark::State &state) {
   const double steady = microseconds[kCycles / 10];
   state.counters["planning_us_per_line"] = (sum - steady * kCycles) / static_cast<double>(lines);
 }
-BENCHMARK(cyclesOfAGroup)->DenseRange(0, 2)->ArgName("machine")->UseManualTime()->Iterations(5);
+BENCHMARK(cyclesOfAGroup)
+    ->ArgsProduct({{0, 1, 2, 3}, {0, 1}})
+    ->ArgNames({"machine", "turns"})
+    ->UseManualTime()
+    ->Iterations(5);
 
 /// A cycle of 100 groups of Scaras.
 void hundredScaras(benchmark::State &state) {
   std::vector<std::unique_ptr<Round>> rounds;
   for (int i = 0; i < 100; ++i)
-    rounds.push_back(std::make_unique<Round>(stride::test::scara()));
+    rounds.push_back(std::make_unique<Round>(stride::test::scara(), false));
   for (auto _ : state)
     for (const std::unique_ptr<Round> &round : rounds)
       round->step();
