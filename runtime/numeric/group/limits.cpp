@@ -27,15 +27,6 @@ constexpr double kStraight = 1e-9;
 constexpr double kLeastPart = 1.0 / 1024.0;
 constexpr int kMostDepth = 12; ///< Of halves of halves: as many as lead there.
 
-/// A place by its axes' derivatives over the way, d[n][k], n-th of axis k, and how fast the tool
-/// is.
-struct Sample {
-  double way;
-  double d[4][kAxes];
-  double speed;       ///< Of the tool's path per unit of the way; 0: the axes lead.
-  double speedChange; ///< Its derivative.
-};
-
 /// The greatest amounts in a part, likewise.
 struct Peaks {
   double d[4][kAxes];
@@ -298,7 +289,11 @@ Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, 
   Sample begin;
   Sample middle;
   Sample end;
-  Obstacle obstacle = take(arm, track, look.from, look, begin);
+  Obstacle obstacle = Obstacle::None;
+  if (look.goesOn)
+    begin = look.end;
+  else
+    obstacle = take(arm, track, look.from, look, begin);
   if (obstacle != Obstacle::None)
     return obstacle;
   Peaks peaks{};
@@ -325,6 +320,7 @@ Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, 
     return obstacle;
   for (int32_t k = 0; k < kAxes; ++k)
     look.reference[k] = end.d[0][k];
+  look.end = end;
   makeStrip(arm, peaks, path, look.to - look.from, strip);
   return Obstacle::None;
 }

@@ -56,6 +56,15 @@ struct Track {
 Obstacle axesAt(const Arm &arm, const PathPlace &place, const double (&reference)[kAxes],
                 Series (&axes)[kAxes]) noexcept;
 
+/// A place by its axes' derivatives over the way, d[n][k], n-th of axis k, and how fast the tool
+/// is.
+struct Sample {
+  double way;
+  double d[4][kAxes];
+  double speed;       ///< Of the tool's path per unit of the way; 0: the axes lead.
+  double speedChange; ///< Its derivative.
+};
+
 /// A part of a track that is being looked at.
 struct Look {
   double from;             ///< Way along the track. [u]
@@ -63,6 +72,8 @@ struct Look {
   double least;            ///< It need not be shorter, however the axes' velocities change. [u]
   double reference[kAxes]; ///< Axes at `from`; afterwards at its end. [u]
   int32_t samples;         ///< How many places have been looked at, so far.
+  Sample end;              ///< At the end of the part before.
+  bool goesOn;             ///< This part begins there.
 };
 
 /// Puts what limits the motion from look.from on into a strip, but for its end and what is there.

@@ -225,6 +225,7 @@ bool lookAtCorner(OrderedArm &ordered, const CarriedTrack &carried, const PathLi
     if (strips.count == kMostCornerStrips)
       return false;
     const double step = look.to - look.from;
+    look.goesOn = step > 0.0;
     look.from = look.to;
     look.to = step > 0.0 ? stripEnd(look.from, step, length) : length;
     path::Strip &strip = strips.strip[strips.count++];

@@ -19,8 +19,10 @@ bool isRestCell(const Plan &plan, int32_t i) noexcept {
 }
 
 bool isValley(const Plan &plan, int32_t i) noexcept {
-  return !isRestCell(plan, i) &&
-         slopeAt(plan, i) - slopeBefore(plan, i) > changeIn(plan, i) * kAlmost;
+  if (isRestCell(plan, i))
+    return false;
+  const double rise = slopeAt(plan, i) - slopeBefore(plan, i);
+  return rise > 0.0 && rise > changeIn(plan, i) * kAlmost; // which is dear to know
 }
 
 // ---- the heap of valleys, the lowest first
@@ -108,7 +110,10 @@ double slopeAfter(const Plan &plan, int32_t i, double slope) noexcept {
   double next = slope;
   for (int k = 0; k < 4; ++k) { // from above and below by turns, ends where it is slow enough
     next = slope + change / exact::sqrt(square);
-    square = larger(cell.square + 2.0 * next * reach, least);
+    const double then = larger(cell.square + 2.0 * next * reach, least);
+    if (then == square)
+      return next;
+    square = then;
   }
   return slope + change / exact::sqrt(square);
 }

@@ -88,6 +88,23 @@ TEST(Math, SineCosineTangent) {
   expectAccurateEverywhere("tan", STRIDE_FUNCTION(tan), STRIDE_REFERENCE(tan));
 }
 
+TEST(Math, SineAndCosineAtOnceHaveTheSameBits) {
+  Samples samples;
+  for (int i = 0; i < kSamples; ++i) {
+    const double x = i % 3 == 0   ? samples.any()
+                     : i % 3 == 1 ? samples.in(-1e-8, 1e-8)
+                                  : samples.in(-50, 50);
+    const stride::SineCosine both = stride::sineCosine(x);
+    if (std::isfinite(x)) {
+      ASSERT_EQ(std::bit_cast<uint64_t>(both.s), std::bit_cast<uint64_t>(stride::sin(x))) << x;
+      ASSERT_EQ(std::bit_cast<uint64_t>(both.c), std::bit_cast<uint64_t>(stride::cos(x))) << x;
+    } else {
+      ASSERT_TRUE(std::isnan(both.s) && std::isnan(both.c));
+    }
+  }
+  EXPECT_TRUE(std::signbit(stride::sineCosine(-0.0).s));
+}
+
 TEST(Math, ReductionNearMultiplesOfHalfPi) {
   // Doubles next to k pi/2, where cancellation is worst; 6381956970095103 * 2^797 is the closest
   // of all doubles to a multiple of pi/2.
