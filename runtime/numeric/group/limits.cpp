@@ -290,10 +290,12 @@ Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, 
   Sample middle;
   Sample end;
   Obstacle obstacle = Obstacle::None;
-  if (look.goesOn)
+  if (look.goesOn) {
     begin = look.end;
-  else
+    ++look.samples; // of what a cycle may look at: the path is made known when it was before
+  } else {
     obstacle = take(arm, track, look.from, look, begin);
+  }
   if (obstacle != Obstacle::None)
     return obstacle;
   Peaks peaks{};
