@@ -441,4 +441,40 @@ TEST(GroupMotion, CornersAreGoneThroughEvenly) {
   printf("the tool's velocity changes by %.5f at most\n", worst);
 }
 
+/// However short for their velocity lines are that come one by one, three of them ahead, each is
+/// blended with the next one: the end of the last that is known is not decided before it has to be.
+TEST(GroupMotion, ShortLinesThatComeInTimeAreBlended) {
+  for (const double length : {40.0, 73.0, 200.0}) {
+    Machine machine = gantry();
+    for (AxisLimits &limits : machine.limits)
+      limits = {300, 3000, 60000, -1e4, 1e4};
+    const auto group = std::make_unique<GroupMotion>();
+    reset(*group, machine.home);
+    Pose last{};
+    stride::group::setRows(last.turn, Matrix<double>::Identity());
+    uint64_t seen = 0;
+    for (int n = 0; n < 6000; ++n) {
+      while (group->next - group->first < 4) {
+        Pose to = last;
+        const double angle = 1.3 * static_cast<double>(group->next);
+        to.place = last.place + Vector3{length * std::cos(angle), length * std::sin(angle), 0};
+        Order order{};
+        order.path = {400, 4000, 4000, 80000};
+        order.velocityFactor = order.accelerationFactor = order.jerkFactor = 1;
+        order.transition = Transition::Distance;
+        order.transitionValue = 0.2 * length;
+        append(*group, drawId(*group), lineLeg(last, to, {}), order);
+        last = to;
+      }
+      cycle(*group, machine.arm(), {0.001, 1, false, 0, 64, 24});
+      const Movement *const active = activeOf(*group);
+      if (active == nullptr || active->id == seen)
+        continue;
+      seen = active->id;
+      EXPECT_TRUE(seen == 1 || active->corner.length > 0) << "line " << seen << " of " << length;
+    }
+    EXPECT_GT(seen, 8U) << length;
+  }
+}
+
 } // namespace

@@ -321,14 +321,14 @@ double lookEnd(const GroupMotion &group, const Arm &arm, const Movement &movemen
   if (movement.endChosen)
     return movement.exit;
   const double length = movement.leg.length;
+  const double way = legBegin(movement) + group.lookedWay - movement.entry;
+  if (way >= neededWay(group))
+    return group.lookedWay;
   if (group.lookedWay < 0.5 * length) {
     // Of one that is short for its velocity the end is needed soon: all at once is planned best.
     const Ramp ramp = rampOf(group, arm, movement, false);
     return neededAhead(group, ramp) >= 0.5 * length ? length : larger(0.5 * length, movement.entry);
   }
-  const double way = legBegin(movement) + group.lookedWay - movement.entry;
-  if (way >= neededWay(group))
-    return group.lookedWay;
   constexpr double kParts = 16.0;
   return smaller(length, group.lookedWay + length / kParts);
 }
