@@ -27,9 +27,9 @@ Series valueOf(const Quintic &polynomial, const Series &u) noexcept {
   const double(&c)[6] = polynomial.c;
   if (c[5] == 0.0 && c[4] == 0.0 && c[3] == 0.0 && c[2] == 0.0 && c[1] == 0.0)
     return Series(c[0] + 0.0); // as of axes that there are not
-  Series sum(polynomial.c[5]);
-  for (int k = 4; k >= 0; --k)
-    sum = sum * u + Series(polynomial.c[k]);
+  Series sum = c[5] * u + Series(c[4]);
+  for (int k = 3; k >= 0; --k)
+    sum = sum * u + Series(c[k]);
   return sum;
 }
 

@@ -46,13 +46,11 @@ public:
     return outcome;
   }
 
-  /// The frame of the last joint for a frame of the tool: its axes are those nearest to the wanted
-  /// ones that the joints reach.
+  /// The frame of the last joint for a frame of the tool, of one that has a tool: its axes are
+  /// those nearest to the wanted ones that the joints reach.
   Outcome endFor(const Frame<Scalar> &tool, Posture posture, const double *reference,
                  Frame<Scalar> &end) const {
     end = tool;
-    if (!kinematics_.hasTool)
-      return Outcome::Done;
     const Frame<double> own = toolOf(kinematics_);
     end.turn = times(tool.turn, Matrix<double>(own.turn.transpose()));
     const Outcome outcome = reachedTurn(posture, reference, end.turn);
@@ -225,10 +223,10 @@ Outcome inverseOf(const AnyKinematics &kinematics, const Frame<Scalar> &tool, Po
   }
   const Parts<Scalar> parts(kinematics);
   Frame<Scalar> end;
-  Outcome outcome = parts.endFor(tool, posture, near, end);
+  Outcome outcome = kinematics.hasTool ? parts.endFor(tool, posture, near, end) : Outcome::Done;
   Scalar joints[kMostJoints];
   if (outcome == Outcome::Done)
-    outcome = parts.inverse(end, posture, near, joints);
+    outcome = parts.inverse(kinematics.hasTool ? end : tool, posture, near, joints);
   if (outcome != Outcome::Done)
     return outcome;
   for (int i = 0; i < count; ++i) {

@@ -89,8 +89,12 @@ struct ArmRrr {
     return a2 > 0 && forearm() > 0 ? Outcome::Done : Outcome::WrongMeasures;
   }
   template <class Scalar> Matrix<Scalar> flangeTurn(const Scalar *joints) const {
-    Matrix<Scalar> turn = chainStep(joints[0], 0, 0, 1).turn;
-    addTurn(turn, turnBy(joints[1] + Scalar(kPi / 2)), 0);
+    const TurnOf<Scalar> base = turnBy(joints[0]);
+    const TurnOf<Scalar> upper = turnBy(joints[1] + Scalar(kPi / 2));
+    const Scalar zero(0.0);
+    Matrix<Scalar> turn; // that of the upper arm: the first two steps without zeros
+    turn << base.c * upper.c, zero - base.c * upper.s, base.s, base.s * upper.c,
+        zero - base.s * upper.s, zero - base.c, upper.s, upper.c, zero;
     addTurn(turn, turnBy(joints[2]), 1);
     return turn;
   }
