@@ -18,11 +18,9 @@ struct Turn {
 
 /// That of an angle in degrees; exact for multiples of 90. [deg] in
 inline Turn turnOf(double degrees) noexcept {
-  const double within = exact::fmod(degrees, 360.0);
+  const double within = exact::fabs(degrees) < 360.0 ? degrees : exact::fmod(degrees, 360.0);
   const double quarters = exact::floor(within / 90.0 + 0.5);
-  const double rest = (within - 90.0 * quarters) * kDegree;
-  const double c = ::stride::cos(rest);
-  const double s = ::stride::sin(rest);
+  const auto [s, c] = ::stride::sineCosine((within - 90.0 * quarters) * kDegree);
   switch ((static_cast<int>(quarters) + 8) % 4) {
   case 1:
     return {-s, c};

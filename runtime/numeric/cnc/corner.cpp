@@ -110,13 +110,14 @@ bool isLine(const path::Shape &shape) noexcept { return shape.kind == path::Shap
 /// The greatest cut that the rules allow, its tolerances left aside: what is a multiple of the cut
 /// between lines is so of curves nearly.
 double firstCut(const Meeting &meeting, const BlendRules &rules, double room) noexcept {
+  const double turn = turnOf(meeting);
   double cut = smaller(rules.cut, room);
-  const double needed = path::curvatureTimesCut(meeting.turn) * meeting.feed * meeting.feed /
-                        (kShare * rules.acceleration);
+  const double needed =
+      path::curvatureTimesCut(turn) * meeting.feed * meeting.feed / (kShare * rules.acceleration);
   if (exact::isfinite(rules.acceleration))
     cut = smaller(cut, larger(needed, kLeastCut * room));
   if (isLine(meeting.before) && isLine(meeting.after))
-    cut = smaller(cut, rules.cornerTolerance / path::deviationPerCut(meeting.turn));
+    cut = smaller(cut, rules.cornerTolerance / path::deviationPerCut(turn));
   return cut;
 }
 
@@ -164,9 +165,10 @@ Corner blendCorner(PathObject &before, PathObject &after, const BlendRules &rule
   Meeting meeting{};
   if (!meet(before, after, meeting))
     return Corner::Kept;
-  if (!(meeting.turn > rules.leastTurn))
+  const double turn = turnOf(meeting);
+  if (!(turn > rules.leastTurn))
     return Corner::Smooth;
-  if (meeting.turn > path::kMaxTurn)
+  if (turn > path::kMaxTurn)
     return Corner::Kept;
   Joint joint{};
   const double cut = search(meeting, rules, smaller(roomBefore, roomAfter), joint);

@@ -1,12 +1,14 @@
 #include "runtime/numeric/cnc/meeting.hpp"
 
-#include "runtime/numeric/path/blend.hpp"
+#include "runtime/iec/math.h"
 
 namespace stride::cnc {
 namespace {
 
 using exact::smaller;
+using numeric::cross;
 using numeric::dot;
+using numeric::norm;
 
 bool isSameNormal(const PathObject &a, const PathObject &b) noexcept {
   return a.normal.x == b.normal.x && a.normal.y == b.normal.y && a.normal.z == b.normal.z;
@@ -40,21 +42,45 @@ bool meet(const PathObject &before, const ObjectShape &first, const PathObject &
   meeting.lengthBefore = first.length;
   meeting.lengthAfter = second.length;
   meeting.measure = first.measure;
-  meeting.place = path::overParameter(first.shape, 1.0).p;
+  const path::Derivatives end = path::overParameter(first.shape, 1.0);
+  const path::Derivatives start = path::overParameter(second.shape, 0.0);
+  meeting.place = end.p;
   meeting.lift = numeric::kZero;
   if (first.measure == Measure::Plane) {
     if (!isSameNormal(before, after))
       return false;
-    const Vector3 off = meeting.place - path::overParameter(second.shape, 0.0).p;
+    const Vector3 off = meeting.place - start.p;
     meeting.lift = before.normal * dot(off, before.normal);
   }
-  meeting.turn = path::turnBetween(tangentAtEnd(first), tangentAtStart(second));
+  const Vector3 from = first.shape.length > 0.0 ? directionAtEnd(end) : numeric::kZero;
+  const Vector3 to = second.shape.length > 0.0 ? directionAtStart(start) : numeric::kZero;
+  meeting.sine = norm(cross(from, to));
+  meeting.cosine = dot(from, to);
   meeting.feed = smaller(before.velocity, after.velocity);
   return true;
 }
 
+double turnOf(const Meeting &meeting) noexcept {
+  return ::stride::atan2(meeting.sine, meeting.cosine);
+}
+
+bool isTurnAbove(double sine, double cosine, double angle) noexcept {
+  if (angle < 1.0 && (cosine <= 0.0 || sine > 2.0 * angle * cosine)) // tan(1) < 2
+    return sine > 0.0 || cosine < 0.0;
+  if (angle > 1.7 && cosine > 0.0) // beyond a right angle
+    return false;
+  return ::stride::atan2(sine, cosine) > angle;
+}
+
 path::Derivatives derivativesAt(const path::Shape &shape, double way) noexcept {
-  return path::overLength(path::overParameter(shape, path::parameterAt(shape, way)));
+  return derivativesOver(shape, path::parameterAt(shape, way));
+}
+
+path::Derivatives derivativesOver(const path::Shape &shape, double u) noexcept {
+  if (shape.kind == path::ShapeKind::Line)
+    return {shape.v[0] + shape.v[1] * u, shape.v[1] * (1.0 / norm(shape.v[1])), numeric::kZero,
+            numeric::kZero};
+  return path::overLength(path::overParameter(shape, u));
 }
 
 double slopeAt(const PathObject &object, int32_t angle, bool atEnd) noexcept {
@@ -66,7 +92,7 @@ double slopeAt(const PathObject &object, int32_t angle, bool atEnd) noexcept {
 }
 
 void beginPiece(const PathObject &before, const PathObject &after, PathObject &piece) noexcept {
-  piece = before;
+  copyObject(piece, before);
   piece.start = before.end;
   piece.end = after.start;
   piece.start.sProfile = 0;

@@ -18,7 +18,8 @@ struct Meeting {
   Vector3
       lift; ///< Of planar objects: what leads from the plane of the second to that of the first.
   Vector3 place; ///< The corner, in the plane of the first.
-  double turn;   ///< [rad]
+  double sine;   ///< Of the angle by which the path turns, and
+  double cosine; ///< its cosine.
   double feed;   ///< The smaller velocity of both. [u/s]
 };
 
@@ -30,11 +31,20 @@ bool meet(const PathObject &before, const PathObject &after, Meeting &meeting) n
 bool meet(const PathObject &before, const ObjectShape &first, const PathObject &after,
           const ObjectShape &second, Meeting &meeting) noexcept;
 
+/// The angle by which the path turns, 0 to pi. [rad]
+double turnOf(const Meeting &meeting) noexcept;
+
+/// Whether an angle of 0 to pi is greater than another one, 0 to pi, without calculating it where
+/// that is plain. [rad] in
+bool isTurnAbove(double sine, double cosine, double angle) noexcept;
+
 /// The shape of an object that may have a corner with others. False: it may not.
 bool describeAtCorner(const PathObject &object, ObjectShape &shape) noexcept;
 
 /// Place and derivatives over the arc length, at a way from the start. [u] in
 path::Derivatives derivativesAt(const path::Shape &shape, double way) noexcept;
+/// The same at a parameter.
+path::Derivatives derivativesOver(const path::Shape &shape, double u) noexcept;
 
 /// How far A (0), B (1) or C (2) goes over the way at an end of an object. [u/u]
 double slopeAt(const PathObject &object, int32_t angle, bool atEnd) noexcept;

@@ -11,13 +11,6 @@ using numeric::norm;
 constexpr double kRadian = 57.29577951308232; ///< [degrees]
 constexpr uint8_t kEndMarks = kEndToolCorrection | kEndSmoothing | kEndAvoidLoops;
 
-/// Where an object is cut.
-struct Cut {
-  double way;  ///< [u]
-  double part; ///< The same as a part of the length.
-  double u;    ///< The same as the parameter of the shape.
-};
-
 bool hasSlopes(const PathObject &object, unsigned axis) noexcept {
   return axis >= kAxisA && axis <= kAxisC && (object.slopes >> (axis - kAxisA) & 1U) != 0;
 }
@@ -43,20 +36,18 @@ Vector3 liftAt(const PathObject &object, double part) noexcept {
   return normal * (dot(way, normal) * part);
 }
 
-/// The coordinates of the cut.
-void place(const PathObject &object, const ObjectShape &shape, const Cut &cut,
-           double (&coordinate)[kAxes]) noexcept {
+/// The coordinates of the cut; in space those of the shape.
+void place(const PathObject &object, const Vector3 *inSpace, ObjectCut &cut) noexcept {
   for (int32_t i = 0; i < kAxes; ++i) {
     const double from = object.start.coordinate[i];
-    coordinate[i] = from + (object.end.coordinate[i] - from) * cut.part;
+    cut.coordinate[i] = from + (object.end.coordinate[i] - from) * cut.part;
   }
-  if (shape.measure != Measure::Space && shape.measure != Measure::Plane)
+  if (inSpace == nullptr)
     return;
-  Vector3 p = path::overParameter(shape.shape, cut.u).p;
-  p = p + liftAt(object, cut.part);
-  coordinate[kAxisX] = p.x;
-  coordinate[kAxisY] = p.y;
-  coordinate[kAxisZ] = p.z;
+  const Vector3 p = *inSpace + liftAt(object, cut.part);
+  cut.coordinate[kAxisX] = p.x;
+  cut.coordinate[kAxisY] = p.y;
+  cut.coordinate[kAxisZ] = p.z;
 }
 
 bool isAt(const Position &position, const double (&coordinate)[kAxes]) noexcept {
@@ -146,86 +137,113 @@ void keepSwitches(PathObject &object, double part, bool inFirst) noexcept {
 
 // ---- an object that is cut
 
-struct Split {
-  Cut cut;
-  double coordinate[kAxes]; ///< Of the cut.
-  double slope[3];          ///< Of A, B, C there, where they go by slopes.
-};
-
 /// Moves the cut to where slopes lead.
-void bend(const PathObject &object, double length, Split &split) noexcept {
+void bend(const PathObject &object, double length, ObjectCut &cut) noexcept {
   for (unsigned i = kAxisA; i <= kAxisC; ++i) {
     if (!hasSlopes(object, i))
       continue;
     const unsigned n = i - kAxisA;
     const double even = (object.end.coordinate[i] - object.start.coordinate[i]) / length;
-    const path::Progress more = path::bentBy(object.startSlope[n] - even, object.endSlope[n] - even,
-                                             split.cut.part, length);
-    split.coordinate[i] += more.f;
-    split.slope[n] = even + more.d1;
+    const path::Progress more =
+        path::bentBy(object.startSlope[n] - even, object.endSlope[n] - even, cut.part, length);
+    cut.coordinate[i] += more.f;
+    cut.slope[n] = even + more.d1;
   }
 }
 
-CutError beginSplit(const PathObject &object, const ObjectShape &shape, double way,
-                    Split &split) noexcept {
+/// Leaves what is after the cut, but for marks.
+void leaveSecond(const ObjectCut &cut, const ObjectShape &shape, PathObject &part) noexcept {
+  completePlane(part);
+  for (int32_t i = 0; i < kAxes; ++i)
+    part.start.coordinate[i] = cut.coordinate[i];
+  for (unsigned i = kAxisA; i <= kAxisC; ++i)
+    if (hasSlopes(part, i))
+      part.startSlope[i - kAxisA] = cut.slope[i - kAxisA];
+  describe(shape.shape, cut.u, 1.0, part);
+  part.length = shape.length - cut.way;
+  keepSwitches(part, cut.part, false);
+}
+
+CutError mayBeCut(const PathObject &object, const ObjectShape &shape, double way) noexcept {
   if (!(shape.length > 0.0))
     return CutError::Shape;
   if (hasProfile(object))
     return CutError::Profile;
-  if (!(way > 0.0 && way < shape.length))
+  return way > 0.0 && way < shape.length ? CutError::None : CutError::Way;
+}
+
+CutError finishPlan(const PathObject &object, double length, const Vector3 *inSpace,
+                    ObjectCut &cut) noexcept {
+  place(object, inSpace, cut);
+  if (isAt(object.start, cut.coordinate) || isAt(object.end, cut.coordinate))
     return CutError::Way;
-  const double part = way / shape.length;
-  const bool isCurve = shape.measure == Measure::Space || shape.measure == Measure::Plane;
-  split.cut = {way, part, isCurve ? path::parameterAt(shape.shape, way) : part};
-  place(object, shape, split.cut, split.coordinate);
-  if (isAt(object.start, split.coordinate) || isAt(object.end, split.coordinate))
-    return CutError::Way;
-  bend(object, shape.length, split);
+  bend(object, length, cut);
   return CutError::None;
 }
 
-/// Leaves what is before the cut, but for marks and the velocity at the end.
-void takeFirst(const Split &split, const ObjectShape &shape, PathObject &part) noexcept {
-  completePlane(part);
-  for (int32_t i = 0; i < kAxes; ++i)
-    part.end.coordinate[i] = split.coordinate[i];
-  for (unsigned i = kAxisA; i <= kAxisC; ++i)
-    if (hasSlopes(part, i))
-      part.endSlope[i - kAxisA] = split.slope[i - kAxisA];
-  describe(shape.shape, 0.0, split.cut.u, part);
-  part.length = split.cut.way;
-  keepSwitches(part, split.cut.part, true);
-}
-
-/// Leaves what is after the cut, but for marks.
-void takeSecond(const Split &split, const ObjectShape &shape, PathObject &part) noexcept {
-  completePlane(part);
-  for (int32_t i = 0; i < kAxes; ++i)
-    part.start.coordinate[i] = split.coordinate[i];
-  for (unsigned i = kAxisA; i <= kAxisC; ++i)
-    if (hasSlopes(part, i))
-      part.startSlope[i - kAxisA] = split.slope[i - kAxisA];
-  describe(shape.shape, split.cut.u, 1.0, part);
-  part.length = shape.length - split.cut.way;
-  keepSwitches(part, split.cut.part, false);
-}
-
 } // namespace
+
+CutError planCut(const PathObject &object, const ObjectShape &shape, double way,
+                 ObjectCut &cut) noexcept {
+  const CutError error = mayBeCut(object, shape, way);
+  if (error != CutError::None)
+    return error;
+  cut.way = way;
+  cut.part = way / shape.length;
+  cut.u = cut.part;
+  if (shape.measure != Measure::Space && shape.measure != Measure::Plane)
+    return finishPlan(object, shape.length, nullptr, cut);
+  cut.u = path::parameterAt(shape.shape, way);
+  const Vector3 inSpace = path::overParameter(shape.shape, cut.u).p;
+  return finishPlan(object, shape.length, &inSpace, cut);
+}
+
+CutError planCut(const PathObject &object, const ObjectShape &shape, double way, double u,
+                 const Vector3 &place, ObjectCut &cut) noexcept {
+  const CutError error = mayBeCut(object, shape, way);
+  if (error != CutError::None)
+    return error;
+  cut.way = way;
+  cut.part = way / shape.length;
+  cut.u = u;
+  return finishPlan(object, shape.length, &place, cut);
+}
+
+void takeFirst(const ObjectCut &cut, const ObjectShape &shape, PathObject &part) noexcept {
+  completePlane(part);
+  for (int32_t i = 0; i < kAxes; ++i)
+    part.end.coordinate[i] = cut.coordinate[i];
+  for (unsigned i = kAxisA; i <= kAxisC; ++i)
+    if (hasSlopes(part, i))
+      part.endSlope[i - kAxisA] = cut.slope[i - kAxisA];
+  describe(shape.shape, 0.0, cut.u, part);
+  part.length = cut.way;
+  keepSwitches(part, cut.part, true);
+}
+
+bool takeSecond(const ObjectCut &cut, ObjectShape &shape, PathObject &object) noexcept {
+  const Vector3 lift = liftAt(object, cut.part);
+  leaveSecond(cut, shape, object);
+  const bool known = path::cutStart(shape.shape, cut.u);
+  shape.shape.v[0] = shape.shape.v[0] + lift;
+  shape.length = shape.shape.length;
+  return known;
+}
 
 CutError splitObject(const PathObject &object, double way, PathObject &first,
                      PathObject &second) noexcept {
   ObjectShape shape{};
   if (shapeOf(object, shape) != ShapeError::None)
     return CutError::Shape;
-  Split split;
-  const CutError error = beginSplit(object, shape, way, split);
+  ObjectCut cut;
+  const CutError error = planCut(object, shape, way, cut);
   if (error != CutError::None)
     return error;
   const PathObject whole = object; // which may be one of both
   first = whole;
   second = whole;
-  takeFirst(split, shape, first);
-  takeSecond(split, shape, second);
+  takeFirst(cut, shape, first);
+  leaveSecond(cut, shape, second);
   first.velocityEnd = whole.velocity;
   first.marks = whole.marks & static_cast<uint8_t>(~kEndMarks);
   second.marks = whole.marks & kEndMarks;
@@ -233,34 +251,21 @@ CutError splitObject(const PathObject &object, double way, PathObject &first,
 }
 
 CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noexcept {
-  Split split;
-  const CutError error = beginSplit(object, shape, way, split);
+  ObjectCut cut;
+  const CutError error = planCut(object, shape, way, cut);
   if (error == CutError::None)
-    takeSecond(split, shape, object);
+    leaveSecond(cut, shape, object);
   return error;
 }
 
 CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexcept {
   if (!(way > 0.0))
     return CutError::Way;
-  Split split;
-  const CutError error = beginSplit(object, shape, shape.length - way, split);
+  ObjectCut cut;
+  const CutError error = planCut(object, shape, shape.length - way, cut);
   if (error == CutError::None)
-    takeFirst(split, shape, object);
+    takeFirst(cut, shape, object);
   return error;
-}
-
-CutError cutStart(PathObject &object, ObjectShape &shape, double way, bool &known) noexcept {
-  Split split;
-  const CutError error = beginSplit(object, shape, way, split);
-  if (error != CutError::None)
-    return error;
-  const Vector3 lift = liftAt(object, split.cut.part);
-  takeSecond(split, shape, object);
-  known = path::cutStart(shape.shape, split.cut.u);
-  shape.shape.v[0] = shape.shape.v[0] + lift;
-  shape.length = shape.shape.length;
-  return CutError::None;
 }
 
 CutError cutStart(PathObject &object, double way) noexcept {

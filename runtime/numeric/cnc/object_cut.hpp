@@ -32,8 +32,26 @@ CutError cutEnd(PathObject &object, double way) noexcept;
 /// The same where it is known what shapeOf() says of the object.
 CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noexcept;
 CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexcept;
-/// Then shapeOf() of what is left is in `shape`, where that is quick to say (`known`).
-CutError cutStart(PathObject &object, ObjectShape &shape, double way, bool &known) noexcept;
+
+/// Where an object is to be cut.
+struct ObjectCut {
+  double way;               ///< From its start. [u]
+  double part;              ///< The same as a part of the length.
+  double u;                 ///< The same as the parameter of the shape.
+  double coordinate[kAxes]; ///< There.
+  double slope[3];          ///< Of A, B, C there, where they go by slopes.
+};
+
+/// The same in two steps: where the cut is, and whether the object can be cut there. Then either
+/// take leaves what is before it or after it. [u] in
+CutError planCut(const PathObject &object, const ObjectShape &shape, double way,
+                 ObjectCut &cut) noexcept;
+/// The same of a shape in space or in a plane, whose parameter and place at this way are known.
+CutError planCut(const PathObject &object, const ObjectShape &shape, double way, double u,
+                 const Vector3 &place, ObjectCut &cut) noexcept;
+void takeFirst(const ObjectCut &cut, const ObjectShape &shape, PathObject &object) noexcept;
+/// Then shapeOf() of what is left is in `shape`, where that is quick to say (true).
+bool takeSecond(const ObjectCut &cut, ObjectShape &shape, PathObject &object) noexcept;
 
 } // namespace stride::cnc
 

@@ -48,19 +48,22 @@ struct Frame {
   Vector3 space(const Flat &v) const noexcept { return x * v.x + y * v.y; }
 };
 
-bool isOne(double value) noexcept { return exact::fabs(value - 1.0) <= kFrameSlack; }
+/// Of length 1. Its square is off by twice as much.
+bool isUnit(const Vector3 &v) noexcept { return exact::fabs(dot(v, v) - 1.0) <= 2.0 * kFrameSlack; }
+
+bool isZero(const Vector3 &v) noexcept { return v.x == 0.0 && v.y == 0.0 && v.z == 0.0; }
 
 /// Memory that was only filled with zeros: the plane of X and Y.
 bool saysNoPlane(const PathObject &object) noexcept {
-  return norm(object.planeX) == 0.0 && norm(object.planeY) == 0.0 && norm(object.normal) == 0.0;
+  return isZero(object.planeX) && isZero(object.planeY) && isZero(object.normal);
 }
 
 ShapeError frameOf(const PathObject &object, Frame &frame) noexcept {
   frame = {object.planeX, object.planeY, object.normal};
   if (saysNoPlane(object))
     frame = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-  return isOne(norm(frame.x)) && isOne(norm(frame.y)) &&
-                 norm(cross(frame.x, frame.y) - frame.n) <= kFrameSlack
+  const Vector3 off = cross(frame.x, frame.y) - frame.n;
+  return isUnit(frame.x) && isUnit(frame.y) && dot(off, off) <= kFrameSlack * kFrameSlack
              ? ShapeError::None
              : ShapeError::Frame;
 }
@@ -129,12 +132,24 @@ struct Fitted {
   Flat opening; ///< What is missing at the end.
 };
 
+/// The angle from a direction of length 1 to a place near it, seen from 0. [rad]
+double turnTo(const Flat &direction, const Flat &place) noexcept {
+  const double across = direction.x * place.y - direction.y * place.x;
+  const double ahead = along(direction, place);
+  const double t = across / ahead;
+  if (!(ahead > 0.0 && exact::fabs(t) < 1e-3))
+    return ::stride::atan2(across, ahead);
+  const double z = t * t; // the next term is below 1e-18 of the angle
+  return t - t * z * (1.0 / 3 - z * (1.0 / 5 - z * (1.0 / 7)));
+}
+
 /// Moves the centre onto the bisector of start and end. False if they lie beside the arc.
 bool fit(const Flat &start, const Flat &end, const Round &round, Fitted &fitted) noexcept {
   const double sweep = round.sweep * kDegree;
   const double slack = kSlack * exact::smaller(1.0, exact::fabs(sweep)) + kRounding;
-  const double off = exact::larger(lengthOf(start - direction(round.begin)),
-                                   lengthOf(end - direction(round.begin + round.sweep)));
+  const Flat first = direction(round.begin);
+  const Flat last = direction(round.begin + round.sweep);
+  const double off = exact::larger(lengthOf(start - first), lengthOf(end - last));
   if (!(off <= slack))
     return false;
   const Flat chord = end - start;
@@ -148,10 +163,9 @@ bool fit(const Flat &start, const Flat &end, const Round &round, Fitted &fitted)
   const Flat from = start - fitted.centre;
   const Flat until = end - fitted.centre;
   fitted.radius = lengthOf(from);
-  fitted.begin = ::stride::atan2(from.y, from.x);
-  const double turn = 2.0 * kPi;
-  const double step = ::stride::atan2(from.x * until.y - from.y * until.x, along(from, until));
-  fitted.sweep = step + turn * exact::floor((sweep - step) / turn + 0.5);
+  const double atStart = turnTo(first, from);
+  fitted.begin = round.begin * kDegree + atStart;
+  fitted.sweep = sweep + (turnTo(last, until) - atStart);
   fitted.opening = isClosed ? until - until * (fitted.radius / lengthOf(until)) : Flat{0.0, 0.0};
   return lengthOf(fitted.opening) <= kOpening;
 }
@@ -297,26 +311,24 @@ void measureOtherwise(const PathObject &object, const Frame &frame, ObjectShape 
   result.length = sum;
 }
 
-bool areFinite(const Position &position) noexcept {
-  bool finite = true;
-  for (const double coordinate : position.coordinate)
-    finite = finite && exact::isfinite(coordinate);
-  return finite;
+/// Not 0 if one of the numbers is not finite: the exponents of such overflow.
+template <int Count> uint64_t notFinite(const double (&numbers)[Count]) noexcept {
+  constexpr uint64_t kSign = uint64_t{1} << 63;
+  uint64_t found = 0;
+  for (const double number : numbers)
+    found |= (__builtin_bit_cast(uint64_t, number) & ~kSign) + (uint64_t{1} << 52);
+  return found & kSign;
 }
 
 /// Only those that mean something.
 bool hasFiniteNumbers(const PathObject &object) noexcept {
-  bool finite =
-      areFinite(object.end) && (object.moveType == MoveType::Jump || areFinite(object.start));
-  if (!isCurve(object.moveType))
-    return finite;
-  finite = finite && exact::isfinite(object.parameterRange[0]) &&
-           exact::isfinite(object.parameterRange[1]);
-  for (const double parameter : object.shape)
-    finite = finite && exact::isfinite(parameter);
-  for (const double parameter : object.moreShape)
-    finite = finite && exact::isfinite(parameter);
-  return finite;
+  uint64_t found = notFinite(object.end.coordinate);
+  if (object.moveType != MoveType::Jump)
+    found |= notFinite(object.start.coordinate);
+  if (isCurve(object.moveType))
+    found |=
+        notFinite(object.parameterRange) | notFinite(object.shape) | notFinite(object.moreShape);
+  return found == 0;
 }
 
 /// The shape of an object that moves, with numbers that are finite.
@@ -429,13 +441,19 @@ ShapeError outlineOf(const PathObject &object, ObjectShape &result) noexcept {
   return describe(object, false, result);
 }
 
+Vector3 directionAtStart(const path::Derivatives &start) noexcept {
+  return firstDirection(start, 1.0);
+}
+
+Vector3 directionAtEnd(const path::Derivatives &end) noexcept { return firstDirection(end, -1.0); }
+
 Vector3 tangentAtStart(const ObjectShape &shape) noexcept {
-  return shape.shape.length > 0.0 ? firstDirection(path::overParameter(shape.shape, 0.0), 1.0)
+  return shape.shape.length > 0.0 ? directionAtStart(path::overParameter(shape.shape, 0.0))
                                   : numeric::kZero;
 }
 
 Vector3 tangentAtEnd(const ObjectShape &shape) noexcept {
-  return shape.shape.length > 0.0 ? firstDirection(path::overParameter(shape.shape, 1.0), -1.0)
+  return shape.shape.length > 0.0 ? directionAtEnd(path::overParameter(shape.shape, 1.0))
                                   : numeric::kZero;
 }
 

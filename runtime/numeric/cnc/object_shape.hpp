@@ -50,6 +50,9 @@ ShapeError outlineOf(const PathObject &object, ObjectShape &result) noexcept;
 /// Z. Where a curve begins or ends at a standstill of its parameter, the direction next to it.
 Vector3 tangentAtStart(const ObjectShape &shape) noexcept;
 Vector3 tangentAtEnd(const ObjectShape &shape) noexcept;
+/// The same of a shape that has a length, where overParameter() of 0 or 1 is known.
+Vector3 directionAtStart(const path::Derivatives &start) noexcept;
+Vector3 directionAtEnd(const path::Derivatives &end) noexcept;
 
 /// The place in X, Y and Z.
 Vector3 placeOf(const Position &position) noexcept;

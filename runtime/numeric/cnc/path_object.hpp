@@ -169,6 +169,12 @@ inline bool isMotion(const PathObject &object) noexcept {
   return object.moveType != MoveType::Function && object.moveType != MoveType::Jump;
 }
 
+/// Copies an object. A plain assignment is a slow string instruction for so many bytes. Both may be
+/// the same.
+inline void copyObject(PathObject &to, const PathObject &from) noexcept {
+  __builtin_memmove(&to, &from, sizeof to);
+}
+
 } // namespace stride::cnc
 
 #endif // STRIDE_RUNTIME_NUMERIC_CNC_PATH_OBJECT_HPP

@@ -81,10 +81,6 @@ void tellFull(Queue &queue, const Ring &ring) noexcept {
   writeShared(queue.full, static_cast<uint8_t>(isFull(queue, ring)));
 }
 
-void copy(PathObject &to, const PathObject *from) noexcept {
-  __builtin_memmove(&to, from, sizeof to);
-}
-
 /// How many objects of this path have been removed; 0 if somebody else has moved the first one.
 uint32_t removedOf(const Queue &queue) noexcept {
   const bool known =
@@ -164,7 +160,7 @@ PathObject *append(Queue *queue, const PathObject *object) noexcept {
     writeShared(queue->path, queue->path + 1);
   }
   PathObject &place = ring.objects[ring.write];
-  copy(place, object);
+  copyObject(place, *object);
   ring.write = ring.wrapped(ring.write + 1);
   if (queue->moved != 0)
     writeShared(queue->moved, queue->moved - 1);
@@ -187,7 +183,7 @@ bool prepare(Queue *queue, uint32_t n, const PathObject *object) noexcept {
   // What was there has been removed, and is now lost.
   if (queue->moved <= n)
     writeShared(queue->moved, n + 1);
-  copy(*place, object);
+  copyObject(*place, *object);
   return true;
 }
 
@@ -240,7 +236,7 @@ bool replaceAt(Queue *queue, uint32_t n, const PathObject *object) noexcept {
   PathObject *place = objectAt(queue, n);
   if (place == nullptr || object == nullptr)
     return false;
-  copy(*place, object);
+  copyObject(*place, *object);
   return true;
 }
 
@@ -252,8 +248,8 @@ bool removeAt(Queue *queue, uint32_t n) noexcept {
     removeFirst(*queue, ring);
   } else {
     for (uint32_t i = n; i + 1 < ring.count(); ++i)
-      copy(ring.objects[ring.wrapped(ring.read + i)],
-           ring.objects + ring.wrapped(ring.read + i + 1));
+      copyObject(ring.objects[ring.wrapped(ring.read + i)],
+                 ring.objects[ring.wrapped(ring.read + i + 1)]);
     ring.write = ring.wrapped(ring.read + ring.count() - 1);
     writeShared(queue->moved, queue->moved + 1);
     writeShared(queue->writePosition, ring.write * kStep);

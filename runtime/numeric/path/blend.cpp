@@ -38,7 +38,11 @@ double turnBetween(const Vector3 &before, const Vector3 &after) noexcept {
 double blendStretch(double turn) noexcept { return interpolated(kStretch, turn); }
 
 Shape blendShape(const Derivatives &before, const Derivatives &after) noexcept {
-  const double speed = blendStretch(turnBetween(before.d1, after.d1)) * norm(after.p - before.p);
+  return blendShape(before, after, turnBetween(before.d1, after.d1));
+}
+
+Shape blendShape(const Derivatives &before, const Derivatives &after, double turn) noexcept {
+  const double speed = blendStretch(turn) * norm(after.p - before.p);
   const auto over = [speed](const Derivatives &end) {
     return Derivatives{end.p, end.d1 * speed, end.d2 * (speed * speed), numeric::kZero};
   };

@@ -19,6 +19,8 @@ double turnBetween(const Vector3 &before, const Vector3 &after) noexcept;
 /// same curvature at both ends. Between lines of equal cuts its greatest curvature is the smallest
 /// that such a polynomial can have.
 Shape blendShape(const Derivatives &before, const Derivatives &after) noexcept;
+/// The same where turnBetween() of both tangents is known. [rad] in
+Shape blendShape(const Derivatives &before, const Derivatives &after, double turn) noexcept;
 
 /// The length of the derivatives over u that such a blend has at both ends, over that of its chord.
 /// [rad] in

@@ -3,10 +3,13 @@
 namespace stride::cnc {
 namespace {
 
+PathObject &held(CornerPath &path) noexcept { return path.objects[path.last]; }
+PathObject &following(CornerPath &path) noexcept { return path.objects[1 - path.last]; }
+
 /// Puts out what comes before `following`. False: there is more to put out.
 bool flush(CornerPath &path, Output &output) noexcept {
   if (path.holds) {
-    if (put(output, path.held) == nullptr)
+    if (put(output, held(path)) == nullptr)
       return false;
     path.holds = false;
   }
@@ -23,15 +26,16 @@ bool flush(CornerPath &path, Output &output) noexcept {
 }
 
 double distanceOf(const CornerPath &path) noexcept {
+  const PathObject &held = path.objects[path.last];
   switch (path.rule) {
   case DistanceRule::ToolRadiusElse:
-    return path.distance != 0.0 ? path.distance : path.held.toolRadius;
+    return path.distance != 0.0 ? path.distance : held.toolRadius;
   case DistanceRule::CornerDistanceAdded:
-    return path.distance + path.held.cornerDistance;
+    return path.distance + held.cornerDistance;
   case DistanceRule::ToolRadiusAdded:
     break;
   }
-  return path.distance + path.held.toolRadius;
+  return path.distance + held.toolRadius;
 }
 
 /// Changes the corner between `held` and `following`, if it is one to be changed.
@@ -39,16 +43,16 @@ void changeCorner(CornerPath &path) noexcept {
   if (!path.holds || !path.heldActive || !path.active)
     return;
   const PieceRules rules{path.kind, distanceOf(path), path.symmetrical, path.leastTurn};
+  PathObject &next = following(path);
   path.knownNext = path.knownHeld;
-  const CornerChange change =
-      makeCorner(path.held, path.following, rules, path.knownNext, path.piece);
+  const CornerChange change = makeCorner(held(path), next, rules, path.knownNext, path.piece);
   if (change == CornerChange::Kept)
     return;
   path.hasPiece = true;
   path.holds = change == CornerChange::Cut;
   for (int32_t i = 0; i < path.count; ++i) {
-    path.functions[i].start = path.following.start;
-    path.functions[i].end = path.following.start;
+    path.functions[i].start = next.start;
+    path.functions[i].end = next.start;
   }
 }
 
@@ -65,7 +69,7 @@ bool waits(CornerPath &path, const PathObject &object) noexcept {
 } // namespace
 
 void startCorners(CornerPath &path) noexcept {
-  path.count = path.done = 0;
+  path.last = path.count = path.done = 0;
   path.active = path.heldActive = path.holds = path.hasPiece = path.hasFollowing = false;
 }
 
@@ -83,7 +87,7 @@ Step nextCorner(CornerPath &path, uint8_t beginMark, const PathObject &object,
       path.active = path.active && !ends;
       return Step::Took;
     }
-    path.following = object;
+    copyObject(following(path), object);
     path.knownNext.room = -1.0;
     path.knownNext.isDescribed = false;
     path.hasFollowing = true;
@@ -94,7 +98,7 @@ Step nextCorner(CornerPath &path, uint8_t beginMark, const PathObject &object,
   path.hasFollowing = false;
   path.active = path.active && !ends;
   if (isMotion(object)) {
-    path.held = path.following;
+    path.last = 1 - path.last;
     path.knownHeld = path.knownNext;
     path.heldActive = path.active;
     path.holds = true;

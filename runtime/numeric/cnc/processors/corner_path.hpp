@@ -31,17 +31,18 @@ struct CornerPath {
   /// stay at the corner, and it stays as it is.
   bool passesFunctions;
   // Its own:
-  PathObject held; ///< The last object, whose end may still be cut.
+  /// The last object, whose end may still be cut, and the next one, as it is after its corner.
+  PathObject objects[2];
   PathObject piece;
-  PathObject following; ///< The next one, as it is after its corner.
   PathObject functions[kMostAtCorner];
-  BeforeCorner knownHeld; ///< Of `held`.
-  BeforeCorner knownNext; ///< Of `following`.
+  BeforeCorner knownHeld; ///< Of the last object.
+  BeforeCorner knownNext; ///< Of the next one.
+  int32_t last;           ///< Which of `objects` is the last one.
   int32_t count;          ///< Of `functions`.
   int32_t done;           ///< How many of them have been put out.
   bool active;            ///< Between the marks.
   bool heldActive;        ///< What is held has a corner that may change.
-  bool holds;
+  bool holds;             ///< There is a last object.
   bool hasPiece;
   bool hasFollowing; ///< What comes before it is being put out.
 };

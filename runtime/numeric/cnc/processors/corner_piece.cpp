@@ -29,11 +29,19 @@ struct Cuts {
 
 /// Both objects where they are cut.
 struct Ends {
+  double beforeAt; ///< The parameter of the first one's shape.
+  double afterAt;  ///< That of the second one's.
   path::Derivatives before;
-  path::Derivatives after;
-  double turn; ///< From one to the other. [rad]
+  path::Derivatives after; ///< In the plane of the first one.
+  double sine;             ///< Of the angle from one to the other, and
+  double cosine;           ///< its cosine.
   Cuts cuts;
 };
+
+double turnOf(const Ends &ends) noexcept { return ::stride::atan2(ends.sine, ends.cosine); }
+
+/// tan(angle / 2).
+double halfTangent(double sine, double cosine) noexcept { return sine / (1.0 + cosine); }
 
 bool isLine(const path::Shape &shape) noexcept { return shape.kind == path::ShapeKind::Line; }
 
@@ -42,16 +50,27 @@ bool isCircle(const path::Shape &shape) noexcept {
   return shape.kind == path::ShapeKind::Arc && dot(shape.v[3], shape.v[3]) == 0.0;
 }
 
+/// The arc whose chord has a length; `most` if there is none. [u]
+double arcOver(double chord, double radius, double most) noexcept {
+  const double q = 0.5 * chord / radius;
+  const double z = q * q;
+  if (z < 0.01) // the arc sine; the next term is below 1e-17 of it
+    return chord *
+           (1.0 +
+            z * (1.0 / 6 +
+                 z * (3.0 / 40 +
+                      z * (5.0 / 112 +
+                           z * (35.0 / 1152 +
+                                z * (63.0 / 2816 + z * (231.0 / 13312 + z * (143.0 / 10240))))))));
+  return z < 1.0 ? 2.0 * radius * ::stride::atan2(q, exact::sqrt(1.0 - z)) : most;
+}
+
 /// How far along an object a circle around the corner meets it; `most` if it does not before.
 double wayAt(const path::Shape &shape, bool atEnd, double distance, double most) noexcept {
   if (isLine(shape))
     return smaller(distance, most);
-  if (isCircle(shape)) { // where the chord is as long
-    const double radius = norm(shape.v[1]);
-    const double rest = 4.0 * radius * radius - distance * distance;
-    return rest > 0.0 ? smaller(2.0 * radius * ::stride::atan2(distance, exact::sqrt(rest)), most)
-                      : most;
-  }
+  if (isCircle(shape))
+    return smaller(arcOver(distance, norm(shape.v[1]), most), most);
   const Vector3 corner = path::overParameter(shape, atEnd ? 1.0 : 0.0).p;
   double way = smaller(distance, most);
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -68,12 +87,15 @@ double wayAt(const path::Shape &shape, bool atEnd, double distance, double most)
 /// False: no good curve leads past the corner with these cuts; perhaps one with smaller ones does.
 bool endsAt(const Meeting &meeting, const Cuts &cuts, Ends &ends) noexcept {
   ends.cuts = cuts;
-  ends.before = derivativesAt(meeting.before, meeting.before.length - cuts.before);
-  ends.after = derivativesAt(meeting.after, cuts.after);
+  ends.beforeAt = path::parameterAt(meeting.before, meeting.before.length - cuts.before);
+  ends.afterAt = path::parameterAt(meeting.after, cuts.after);
+  ends.before = derivativesOver(meeting.before, ends.beforeAt);
+  ends.after = derivativesOver(meeting.after, ends.afterAt);
   ends.after.p = ends.after.p + meeting.lift;
-  ends.turn = path::turnBetween(ends.before.d1, ends.after.d1);
+  ends.sine = norm(cross(ends.before.d1, ends.after.d1));
+  ends.cosine = dot(ends.before.d1, ends.after.d1);
   const double bend = larger(norm(ends.before.d2) * cuts.before, norm(ends.after.d2) * cuts.after);
-  return bend <= kMostBend && ends.turn <= path::kMaxTurn;
+  return bend <= kMostBend && !isTurnAbove(ends.sine, ends.cosine, path::kMaxTurn);
 }
 
 bool chooseEnds(const Meeting &meeting, const PieceRules &rules, double roomBefore,
@@ -95,7 +117,8 @@ bool chooseEnds(const Meeting &meeting, const PieceRules &rules, double roomBefo
 /// Between equal cuts of two lines, the cubic that touches an arc of a circle in the middle; what
 /// it is for others is an affine picture of that.
 path::Shape cubicOf(const Ends &ends) noexcept {
-  const double t = ::stride::tan(0.25 * ends.turn);
+  const double tangent = halfTangent(ends.sine, ends.cosine);
+  const double t = tangent / (1.0 + exact::sqrt(1.0 + tangent * tangent)); // of a quarter
   const double stretch = 2.0 * (1.0 - t * t);
   const Vector3 first = ends.before.d1 * (stretch * ends.cuts.before);
   const Vector3 last = ends.after.d1 * (stretch * ends.cuts.after);
@@ -106,13 +129,14 @@ path::Shape cubicOf(const Ends &ends) noexcept {
 
 /// The blend of numeric/path, drawn out where cuts are not equal.
 path::Shape quinticOf(const Meeting &meeting, const Ends &ends) noexcept {
+  const double turn = turnOf(ends);
   if (ends.cuts.before == ends.cuts.after)
-    return path::blendShape(ends.before, ends.after);
+    return path::blendShape(ends.before, ends.after, turn);
   const double mean = 0.5 * (ends.cuts.before + ends.cuts.after);
   const double chord = isLine(meeting.before) && isLine(meeting.after)
-                           ? 2.0 * mean * ::stride::cos(0.5 * ends.turn)
+                           ? 2.0 * mean * ::stride::cos(0.5 * turn)
                            : norm(ends.after.p - ends.before.p);
-  const double stretch = path::blendStretch(ends.turn) * chord / mean;
+  const double stretch = path::blendStretch(turn) * chord / mean;
   const auto over = [stretch](const path::Derivatives &end, double cut) {
     const double speed = stretch * cut;
     return path::Derivatives{end.p, end.d1 * speed, end.d2 * (speed * speed), numeric::kZero};
@@ -141,6 +165,10 @@ void describeCubic(const path::Shape &curve, PathObject &piece) noexcept {
   piece.length = curve.length;
 }
 
+double arcRadius(const Ends &ends) noexcept {
+  return ends.cuts.before / halfTangent(ends.sine, ends.cosine);
+}
+
 void describeArc(const Ends &ends, PathObject &piece) noexcept {
   const Vector3 up = cross(ends.before.d1, ends.after.d1);
   const Vector3 normal = up * (1.0 / norm(up));
@@ -152,7 +180,7 @@ void describeArc(const Ends &ends, PathObject &piece) noexcept {
     piece.normal = normal;
     side = 1.0;
   }
-  const double radius = ends.cuts.before / ::stride::tan(0.5 * ends.turn);
+  const double radius = arcRadius(ends);
   const Vector3 centre = ends.before.p + inside * radius;
   piece.moveType = side > 0.0 ? MoveType::Counterclockwise : MoveType::Clockwise;
   piece.shape[0] = dot(centre, piece.planeX);
@@ -161,11 +189,27 @@ void describeArc(const Ends &ends, PathObject &piece) noexcept {
   piece.shape[3] = dot(ends.before.p, piece.normal);
   piece.parameterRange[0] =
       ::stride::atan2(-dot(inside, piece.planeY), -dot(inside, piece.planeX)) * kDegrees;
-  piece.parameterRange[1] = (side > 0.0 ? -ends.turn : ends.turn) * kDegrees;
-  piece.length = radius * ends.turn;
+  const double turn = turnOf(ends);
+  piece.parameterRange[1] = (side > 0.0 ? -turn : turn) * kDegrees;
+  piece.length = radius * turn;
 }
 
-void describe(const Meeting &meeting, const Ends &ends, PieceKind kind,
+/// The curve past the corner; that of an arc has only its length.
+path::Shape curveOf(const Meeting &meeting, const Ends &ends, PieceKind kind) noexcept {
+  switch (kind) {
+  case PieceKind::Cubic:
+    return cubicOf(ends);
+  case PieceKind::Quintic:
+    return quinticOf(meeting, ends);
+  case PieceKind::Arc:
+    break;
+  }
+  path::Shape curve{};
+  curve.length = arcRadius(ends) * turnOf(ends);
+  return curve;
+}
+
+void describe(const path::Shape &curve, const Ends &ends, PieceKind kind,
               PathObject &piece) noexcept {
   completePlane(piece);
   for (double &value : piece.shape)
@@ -174,10 +218,10 @@ void describe(const Meeting &meeting, const Ends &ends, PieceKind kind,
     value = 0.0;
   switch (kind) {
   case PieceKind::Cubic:
-    describeCubic(cubicOf(ends), piece);
+    describeCubic(curve, piece);
     break;
   case PieceKind::Quintic:
-    describePiece(quinticOf(meeting, ends), piece);
+    describePiece(curve, piece);
     break;
   case PieceKind::Arc:
     describeArc(ends, piece);
@@ -205,33 +249,49 @@ void clearSwitches(PathObject &object) noexcept {
   }
 }
 
-/// Gives the switch points of both objects to what they have become.
-void shareSwitches(const PathObject &before, const PathObject &after, const Meeting &meeting,
-                   const Cuts &cuts, bool replaced, PathObject &first, PathObject &piece,
-                   PathObject &second) noexcept {
-  clearSwitches(first);
-  clearSwitches(second);
-  const double left = meeting.before.length - cuts.before;
+/// The switch points of an object.
+struct Switches {
+  double position[kMostSwitches + 1];
+  int16_t id[kMostSwitches + 1];
+};
+
+Switches switchesOf(const PathObject &object) noexcept {
+  Switches all;
   for (int32_t i = 0; i <= kMostSwitches; ++i) {
-    const double way = before.switchPosition[i] * meeting.before.length;
-    const bool stays = !replaced && way <= left;
-    if (before.switchId[i] == 0)
-      continue;
-    if (stays)
-      (void)putSwitch(first, way / left, before.switchId[i]);
-    else if (!putSwitch(piece, smaller((way - left) / piece.length, 0.5), before.switchId[i]))
-      (void)putSwitch(replaced ? second : first, replaced ? 0.0 : 1.0, before.switchId[i]);
+    all.position[i] = object.switchPosition[i];
+    all.id[i] = object.switchId[i];
   }
+  return all;
+}
+
+/// Gives those of the first object to what both objects have become.
+void shareFirst(const Switches &was, const Meeting &meeting, const Cuts &cuts, bool replaced,
+                PathObject &first, PathObject &piece, PathObject &second) noexcept {
+  const double left = meeting.before.length - cuts.before;
+  clearSwitches(first);
+  for (int32_t i = 0; i <= kMostSwitches; ++i) {
+    const double way = was.position[i] * meeting.before.length;
+    if (was.id[i] == 0)
+      continue;
+    if (!replaced && way <= left)
+      (void)putSwitch(first, way / left, was.id[i]);
+    else if (!putSwitch(piece, smaller((way - left) / piece.length, 0.5), was.id[i]))
+      (void)putSwitch(replaced ? second : first, replaced ? 0.0 : 1.0, was.id[i]);
+  }
+}
+
+/// The same of the second one.
+void shareSecond(const Switches &was, const Meeting &meeting, const Cuts &cuts, PathObject &piece,
+                 PathObject &second) noexcept {
   const double rest = meeting.after.length - cuts.after;
   for (int32_t i = 0; i <= kMostSwitches; ++i) {
-    const double way = after.switchPosition[i] * meeting.after.length;
-    if (after.switchId[i] == 0)
+    const double way = was.position[i] * meeting.after.length;
+    if (was.id[i] == 0)
       continue;
     if (way >= cuts.after)
-      (void)putSwitch(second, (way - cuts.after) / rest, after.switchId[i]);
-    else if (!putSwitch(piece, larger(1.0 - (cuts.after - way) / piece.length, 0.5),
-                        after.switchId[i]))
-      (void)putSwitch(second, 0.0, after.switchId[i]);
+      (void)putSwitch(second, (way - cuts.after) / rest, was.id[i]);
+    else if (!putSwitch(piece, larger(1.0 - (cuts.after - way) / piece.length, 0.5), was.id[i]))
+      (void)putSwitch(second, 0.0, was.id[i]);
   }
 }
 
@@ -239,8 +299,9 @@ bool mayBe(const Meeting &meeting, const PathObject &before, const PathObject &a
            const PieceRules &rules) noexcept {
   const Vector3 gap = placeOf(after.start) - placeOf(before.end);
   const bool lines = isLine(meeting.before) && isLine(meeting.after);
-  return meeting.turn > larger(rules.leastTurn, kLeastAngle) && meeting.turn <= path::kMaxTurn &&
-         rules.distance > 0.0 && norm(gap) <= kGap && (lines || rules.kind != PieceKind::Arc);
+  return isTurnAbove(meeting.sine, meeting.cosine, larger(rules.leastTurn, kLeastAngle)) &&
+         !isTurnAbove(meeting.sine, meeting.cosine, path::kMaxTurn) && rules.distance > 0.0 &&
+         norm(gap) <= kGap && (lines || rules.kind != PieceKind::Arc);
 }
 
 } // namespace
@@ -262,30 +323,40 @@ CornerChange makeCorner(PathObject &before, PathObject &after, const PieceRules 
   const double roomAfter = 0.5 * meeting.after.length;
   if (!chooseEnds(meeting, rules, roomBefore, roomAfter, ends))
     return CornerChange::Kept;
-  PathObject first = before;
-  PathObject second = after;
-  BeforeCorner rest{roomAfter, false, known.shape};
   const bool replaced = length - ends.cuts.before <= kNothing * length;
+  ObjectCut cutBefore;
+  ObjectCut cutAfter;
+  if (!replaced && planCut(before, shape, shape.length - ends.cuts.before, ends.beforeAt,
+                           ends.before.p, cutBefore) != CutError::None)
+    return CornerChange::Kept;
+  if (planCut(after, known.shape, ends.cuts.after, ends.afterAt, ends.after.p - meeting.lift,
+              cutAfter) != CutError::None)
+    return CornerChange::Kept;
+  const path::Shape curve = curveOf(meeting, ends, rules.kind);
+  if (!exact::isPositive(curve.length))
+    return CornerChange::Kept;
+  // From here on nothing fails.
+  const Switches switchesBefore = switchesOf(before);
+  const Switches switchesAfter = switchesOf(after);
+  const double startSlope[] = {slopeAt(before, 0, false), slopeAt(before, 1, false),
+                               slopeAt(before, 2, false)};
   if (replaced)
-    first.end = first.start;
-  else if (cutEnd(first, shape, ends.cuts.before) != CutError::None)
-    return CornerChange::Kept;
-  if (cutStart(second, rest.shape, ends.cuts.after, rest.isDescribed) != CutError::None)
-    return CornerChange::Kept;
-  beginPiece(first, second, piece);
+    before.end = before.start;
+  else
+    takeFirst(cutBefore, shape, before);
+  known.isDescribed = takeSecond(cutAfter, known.shape, after);
+  known.room = roomAfter;
+  beginPiece(before, after, piece);
   if (replaced) {
-    piece.marks = first.marks;
+    piece.marks = before.marks;
     for (int32_t i = 0; i < 3; ++i)
-      piece.startSlope[i] = slopeAt(before, i, false);
+      piece.startSlope[i] = startSlope[i];
   }
-  describe(meeting, ends, rules.kind, piece);
-  if (!exact::isPositive(piece.length))
-    return CornerChange::Kept;
-  shareSwitches(before, after, meeting, ends.cuts, replaced, first, piece, second);
-  first.velocityEnd = smaller(first.velocity, piece.velocity);
-  before = first;
-  after = second;
-  known = rest;
+  describe(curve, ends, rules.kind, piece);
+  clearSwitches(after);
+  shareFirst(switchesBefore, meeting, ends.cuts, replaced, before, piece, after);
+  shareSecond(switchesAfter, meeting, ends.cuts, piece, after);
+  before.velocityEnd = smaller(before.velocity, piece.velocity);
   return replaced ? CornerChange::Replaced : CornerChange::Cut;
 }
 
