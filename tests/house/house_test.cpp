@@ -112,6 +112,8 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"drivers/can/log", {"drivers/can/port"}},
       {"drivers/can/simulation",
        {"drivers/can/port", "drivers/dummy", "runtime/bus", "runtime/iec", "st"}},
+      {"drivers/sercos/protocol", {}},
+      {"drivers/sercos/ring", {"drivers/sercos/protocol"}},
       {"drivers/io", {"runtime/io", "runtime/app"}},
       {"drivers/can/plan", {"drivers/can/port", "runtime/bus"}},
       {"drivers/can/master",
