@@ -64,7 +64,6 @@ void Device::receiveMst(uint8_t phase) noexcept {
     missMst();
     return;
   }
-  missedMsts_ = 0;
   const auto now = static_cast<uint8_t>(phase_);
   if (phase > static_cast<uint8_t>(Phase::Four))
     raiseInterfaceError(interface_status::kInvalidPhase);
@@ -85,6 +84,7 @@ void Device::receiveMst(uint8_t phase) noexcept {
       return;
     }
   }
+  missedMsts_ = 0;
   runCommands();
   onCycle(periodNs_);
   updateStatus();
