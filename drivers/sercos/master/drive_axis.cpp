@@ -43,8 +43,19 @@ DriveAxis::DriveAxis(const DriveConfig &config)
     status_.controllerMode = command_.controllerMode = modes_.modes[0];
 }
 
-void DriveAxis::begin(const ScalingFacts &facts, std::span<const uint8_t> telegram) {
+uint8_t DriveAxis::controllerModes() const {
+  uint8_t modes = 0;
+  for (const uint8_t mode : modes_.modes)
+    modes = static_cast<uint8_t>(modes | (mode != 0 ? 1U << mode : 0U));
+  return modes;
+}
+
+void DriveAxis::begin(const ScalingFacts &facts, uint8_t missing,
+                      std::span<const uint8_t> telegram) {
   end();
+  for (size_t i = 0; i < modes_.modes.size(); ++i)
+    if ((missing >> i & 1U) != 0)
+      modes_.modes[i] = 0;
   velocityUnit_ = velocityUnit(facts);
   torqueUnit_ = torqueUnit(facts, config_.torqueRated);
   const uint32_t place = config_.settings.cyclic.at.placeOf(idns::kPositionFeedback1);

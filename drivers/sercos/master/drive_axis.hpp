@@ -23,8 +23,8 @@ class DriveAxis {
 public:
   explicit DriveAxis(const DriveConfig &config);
 
-  /// The drive is in operation; `telegram` is its AT.
-  void begin(const ScalingFacts &facts, std::span<const uint8_t> telegram);
+  /// The drive is in operation; `telegram` is its AT. `missing`: StartUp::missingModes.
+  void begin(const ScalingFacts &facts, uint8_t missing, std::span<const uint8_t> telegram);
   /// It is not any more: where it stood is still known.
   void end();
 
@@ -37,7 +37,8 @@ public:
   void command(const bus::DriveCommand &command) { command_ = command; }
   /// Without `communication`.
   [[nodiscard]] const bus::DriveStatus &status() const { return status_; }
-  [[nodiscard]] uint8_t controllerModes() const { return config_.settings.cyclic.controllerModes; }
+  /// Bit n stands for mode n.
+  [[nodiscard]] uint8_t controllerModes() const;
   /// It is switched off, whatever the command says: it stops as well as it can.
   void shutDown() { shutDown_ = true; }
   /// It stands still, or has no torque.

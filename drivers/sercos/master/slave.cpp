@@ -65,7 +65,7 @@ void Slave::start() {
   started_ = true;
   owner_ = last_ = Owner::Nobody;
   channel_.release();
-  axis_.begin(startUp_.facts(), telegram_.bytes());
+  axis_.begin(startUp_.facts(), startUp_.missingModes(), telegram_.bytes());
 }
 
 bus::DriveStatus Slave::status() const {

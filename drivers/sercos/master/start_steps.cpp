@@ -145,9 +145,9 @@ void phaseThree(const DriveConfig &config, Steps &steps) {
       const uint8_t mode = modes.modes[i];
       if (mode == 0 || steps.isLocked(idn))
         continue;
-      const bool position = mode == kPositionControl;
-      steps.add(position ? StartOp::WriteMode : StartOp::Write, idn).value.numbers[0] =
-          operationMode(mode);
+      StartStep &step = steps.add(StartOp::WriteMode, idn);
+      step.value.numbers[0] = operationMode(mode);
+      step.optional = i > 0;
     }
     // The first bit for real-time status shows the home switch.
     steps.write(idns::kRealTimeStatus1, idns::kHomeSwitch, true);

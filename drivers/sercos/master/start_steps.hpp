@@ -16,7 +16,7 @@ enum class StartOp : uint8_t {
   AwaitPlan,   ///< Until the times of the ring are known.
   WriteTime,   ///< What those times say.
   Write,
-  WriteMode,   ///< A position mode: without lag if the drive has that.
+  WriteMode,   ///< An operation mode; of positions without lag if the drive has that.
   WriteFile,   ///< What the file has and this phase allows.
   ReadScaling, ///< A fact.
   Command,     ///< A procedure command, until it has been executed.

@@ -61,6 +61,7 @@ void StartUp::begin(Phase phase) {
   planned_ = false;
   timing_ = usual_;
   facts_ = {};
+  missingModes_ = 0;
   std::fill(fileWritten_.begin(), fileWritten_.end(), false);
 }
 
@@ -258,12 +259,17 @@ void StartUp::fileStep(ServiceChannel &channel, bus::Message &message) {
 void StartUp::written(ServiceChannel &channel, bus::Message &message) {
   const StartStep &step = now();
   if (channel.state() != ServiceChannel::State::Done) {
-    const bool lagless = step.op == StartOp::WriteMode && !channel.timedOut();
-    if (lagless && scratch_.idn != step.value.idn) { // then with lag
+    const bool isMode = step.op == StartOp::WriteMode && !channel.timedOut();
+    constexpr auto kLagless = static_cast<int64_t>(OperationMode::Position1Lagless);
+    if (isMode && step.value.numbers[0] == kLagless && scratch_.idn != step.value.idn) {
+      // then with lag
       scratch_.idn = step.value.idn;
       scratch_.numbers[0] = static_cast<int64_t>(OperationMode::Position1);
       write(channel, scratch_, message);
     } else if (step.optional && !channel.timedOut()) {
+      if (isMode)
+        missingModes_ =
+            static_cast<uint8_t>(missingModes_ | 1U << (step.value.idn - idns::kPrimaryMode));
       next();
     } else {
       refused(channel, message);

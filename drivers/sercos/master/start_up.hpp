@@ -39,6 +39,8 @@ public:
   [[nodiscard]] uint8_t percent() const;
   [[nodiscard]] const DriveTiming &timing() const { return timing_; }
   [[nodiscard]] const ScalingFacts &facts() const { return facts_; }
+  /// Of S-0-0032 (bit 0), S-0-0033, S-0-0034: operation modes that the drive does not have.
+  [[nodiscard]] uint8_t missingModes() const { return missingModes_; }
   [[nodiscard]] const std::vector<StartStep> &steps(Phase phase) const;
 
 private:
@@ -84,6 +86,7 @@ private:
   Phase phase_ = Phase::Zero;
   Part part_ = Part::Begin;
   State state_ = State::Busy;
+  uint8_t missingModes_ = 0;
   bool planned_ = false;
 };
 
