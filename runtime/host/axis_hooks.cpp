@@ -348,6 +348,12 @@ std::string ownFile(const std::string &file, const StrideAppV1 &app, const AxisG
   return path.string();
 }
 
+std::string filesFolder(const StrideAppV1 &app, const std::string &given) {
+  if (!given.empty())
+    return given;
+  return app.filesRoot != nullptr ? app.filesRoot : "files";
+}
+
 void checkRecording(const StrideAppV1 &app, const bus::BusRecording &recording) {
   if (recording.log.empty() && recording.replay.empty())
     return;
@@ -368,7 +374,8 @@ app::RuntimeLayouts runtimeLayouts() {
 std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
                                                             task::TaskSet &tasks, InputPort &inputs,
                                                             bus::BusKind buses,
-                                                            const bus::BusRecording &recording) {
+                                                            const bus::BusRecording &recording,
+                                                            const std::string &files) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
@@ -378,6 +385,7 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
     const drivers::DriverEntry &driver = driverOf(group);
     bus::GroupSetup setup = groupSetup(app, group, *driver.schema);
     setup.kind = buses;
+    setup.files = filesFolder(app, files);
     setup.recording = {ownFile(recording.log, app, group), ownFile(recording.replay, app, group)};
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
