@@ -97,14 +97,11 @@ void SimulatedNetwork::disturb() noexcept {
     const DriveSim &sim = *place.sim;
     simulation::DeviceFaults &faults = place.device().faults();
     faults.off = sim.bOff != 0;
-    faults.leaves = sim.bLeave != 0;
     faults.loseMsts = sim.udiLoseMsts;
     faults.loseMdts = sim.udiLoseMdts;
     faults.loseAts = sim.udiLoseAts;
     faults.distortAts = sim.udiDistortAts;
     faults.busyCycles = sim.udiBusyCycles;
-    faults.mute = sim.bMute != 0;
-    faults.failPhase3 = sim.bFailPhase3 != 0;
     faults.failPhase4 = sim.bFailPhase4 != 0;
     faults.baudRate = sim.usiBaudRate;
     faults.answersAs = sim.usiAnswersAs;

@@ -1,5 +1,6 @@
 #include "drivers/sercos/master/parameter_transfer.hpp"
 
+#include "drivers/sercos/plan/drive_settings.hpp"
 #include "runtime/iec/math.h"
 
 #include <algorithm>
@@ -30,6 +31,12 @@ constexpr std::array<ResultRow, 11> kResults = {{
     {service_error::kInvalidData, Result::Refused},
     {service_error::kCyclic, Result::Refused},
 }};
+
+/// Commands of the moment: nobody wants them from a file.
+constexpr std::array kMomentary = {
+    idns::kVelocityCommand, idns::kAdditiveVelocity, idns::kPositionCommand, idns::kTorqueCommand,
+    idns::kAdditiveTorque,  idns::kControlWord,      idns::kProbe1Enable,    idns::kProbe2Enable,
+    idns::kHomingEnable};
 
 template <size_t N>
 std::string_view copied(std::span<const uint8_t> bytes, std::array<char, N> &to) {
@@ -162,6 +169,12 @@ void ParameterTransfer::refused(const ServiceChannel &channel) {
 void ParameterTransfer::finished(ServiceChannel &channel) {
   const bool done = channel.state() == ServiceChannel::State::Done;
   const bool optional = step_ == Step::Name || step_ == Step::Unit;
+  if (!done && step_ == Step::List && channel.error() == service_error::kNoIdn) {
+    channel.release();
+    (void)channel.read(idns::kAllIdns, Element::Data);
+    step_ = Step::AllIdns;
+    return;
+  }
   if (!done && !optional) {
     if (step_ != Step::Idle && step_ != Step::Answered)
       refused(channel);
@@ -178,6 +191,7 @@ void ParameterTransfer::finished(ServiceChannel &channel) {
     answer(Result::Done);
     break;
   case Step::List:
+  case Step::AllIdns:
     listRead(channel);
     break;
   case Step::Attribute:
@@ -197,18 +211,19 @@ void ParameterTransfer::read(const ServiceChannel &channel) {
     answer(Result::Done);
     return;
   }
+  const bool isText = place_.element == Element::Name || place_.element == Element::Unit;
+  const bool isValue = place_.element != Element::Idn && place_.element != Element::Attribute;
+  const bool isList = isText || (isValue && channel.attribute().list);
+  if (isList != (place_.piece != 0)) {
+    answer(Result::Unknown); // it is no number, or nothing else
+    return;
+  }
   if (place_.piece != 0) {
     std::copy(bytes.begin(), bytes.end(), read_.bytes.begin());
     read_.size = bytes.size();
     read_.idn = place_.idn;
     read_.element = place_.element;
     answerPiece();
-    return;
-  }
-  const bool isText = place_.element == Element::Name || place_.element == Element::Unit;
-  const bool isValue = place_.element != Element::Idn && place_.element != Element::Attribute;
-  if (isText || (isValue && channel.attribute().list)) {
-    answer(Result::Unknown); // it is no number
     return;
   }
   answerWith(channel.number());
@@ -264,7 +279,14 @@ void ParameterTransfer::write(ServiceChannel &channel) {
     step_ = Step::Writing;
 }
 
-// The list of a drive is S-0-0192: what there is to be stored. Only numbers of it are told.
+// The list of a drive is S-0-0192: what there is to be stored. Only numbers of it are told that can
+// be set, and that are not the driver's own matter.
+
+bool ParameterTransfer::isTold(Idn idn, const Attribute &attribute) const {
+  return !attribute.list && !attribute.command && attribute.protection != protect::kAlways &&
+         !isOwnedByDriver(idn) && !told_.carries(idn) &&
+         std::find(kMomentary.begin(), kMomentary.end(), idn) == kMomentary.end();
+}
 
 void ParameterTransfer::beginDescribe(ServiceChannel &channel) {
   if (request_.number == next_ && next_ != 0)
@@ -299,15 +321,16 @@ void ParameterTransfer::described(ServiceChannel &channel) {
   const Idn idn = listed_[listPlace_];
   if (step_ == Step::Attribute) {
     const Attribute attribute = channel.attribute();
-    if (attribute.list || attribute.command || next_ < request_.number) {
-      next_ += attribute.list || attribute.command ? 0 : 1;
+    const bool told = isTold(idn, attribute);
+    if (!told || next_ < request_.number) {
+      next_ += told ? 1 : 0;
       ++listPlace_;
       nextListed(channel);
       return;
     }
     answer_.number = idn;
     answer_.type = ParameterAnswer::Type::Whole;
-    answer_.writable = attribute.protection != protect::kAlways;
+    answer_.writable = true;
     channel.release();
     if (channel.read(idn, Element::Name))
       step_ = Step::Name;

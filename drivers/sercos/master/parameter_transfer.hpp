@@ -4,6 +4,7 @@
 #define STRIDE_DRIVERS_SERCOS_MASTER_PARAMETER_TRANSFER_HPP
 
 #include "drivers/sercos/master/service_channel.hpp"
+#include "drivers/sercos/plan/cyclic_plan.hpp"
 #include "runtime/bus/axis_driver.hpp"
 
 #include <array>
@@ -27,6 +28,9 @@ std::optional<ParameterPlace> placeOfParameter(int32_t number);
 /// One question at a time.
 class ParameterTransfer {
 public:
+  /// `told`: what the drive is told in each cycle.
+  explicit ParameterTransfer(const CyclicRecord &told) : told_(told) {}
+
   void start(const bus::ParameterRequest &request);
   /// Answers at once, with what travels in each cycle.
   void answerWith(int64_t value);
@@ -52,7 +56,8 @@ private:
     Reading,
     Measuring, ///< Write: what the IDN's attribute is.
     Writing,
-    List, ///< Describe: S-0-0192.
+    List,    ///< Describe: S-0-0192, what there is to be stored, or …
+    AllIdns, ///< … S-0-0017 of a drive without it.
     Attribute,
     Name,
     Unit,
@@ -83,7 +88,9 @@ private:
   void listRead(ServiceChannel &channel);
   void nextListed(ServiceChannel &channel);
   void described(ServiceChannel &channel);
+  [[nodiscard]] bool isTold(Idn idn, const Attribute &attribute) const;
 
+  CyclicRecord told_;
   std::array<uint8_t, ServiceChannel::kMost> bytes_{};
   Pieces read_;
   Pieces write_;

@@ -7,7 +7,8 @@
 namespace stride::sercos {
 
 Slave::Slave(const DriveConfig &config)
-    : config_(config), channel_(config.serviceTimeout), startUp_(config), axis_(config) {}
+    : config_(config), channel_(config.serviceTimeout), startUp_(config), axis_(config),
+      parameters_(config.settings.cyclic.mdt) {}
 
 void Slave::clear() {
   leave();

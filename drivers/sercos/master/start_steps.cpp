@@ -160,6 +160,8 @@ void phaseThree(const DriveConfig &config, Steps &steps) {
 }
 
 void phaseFour(const DriveConfig &config, Steps &steps) {
+  // Who has lost the ring before says so until then; what is still there is an error of the axis.
+  steps.add(StartOp::Command, idns::kResetClass1).optional = true;
   steps.writeListed(Phase::Four);
   const PackProfile profile = config.settings.profile;
   for (const Idn idn : packProfileIdns(profile))

@@ -298,7 +298,7 @@ void StartUp::polled(ServiceChannel &channel, bus::Message &message) {
   const Idn idn = now().value.idn;
   const auto state = static_cast<uint16_t>(channel.number() & data_state::kCommandMask);
   channel.release();
-  if (state == data_state::kDone) {
+  if (state == data_state::kDone || (state == data_state::kFailed && now().optional)) {
     scratch_.numbers[0] = command::kCancel;
     const std::array<uint8_t, 2> cancel{};
     (void)channel.write(idn, cancel);
