@@ -34,7 +34,7 @@ bool IdnEntry::add(Idn idn) {
 
 void IdnEntry::setText(std::string_view text) {
   const size_t length = std::min(text.size(), room);
-  list.assign(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(length));
+  list.assign(text.begin(), text.begin() + static_cast<ptrdiff_t>(length));
 }
 
 int64_t fitted(const Attribute &attribute, uint64_t bits) {

@@ -40,7 +40,7 @@ struct Answer {
   }
   [[nodiscard]] std::string text() const {
     const size_t length = bytes[0] | static_cast<size_t>(bytes[1] << 8U);
-    return {bytes.begin() + 4, bytes.begin() + 4 + static_cast<std::ptrdiff_t>(length)};
+    return {bytes.begin() + 4, bytes.begin() + 4 + static_cast<ptrdiff_t>(length)};
   }
   [[nodiscard]] std::vector<Idn> ids() const {
     std::vector<Idn> all;
