@@ -54,9 +54,8 @@ struct Scene {
       sent.phase = phase;
       cycle(3);
     }
-    constexpr std::pair<uint16_t, int64_t> kTimes[] = {{1, 1000}, {2, 1000}, {6, 13},
-                                                       {89, 100}, {7, 700},  {8, 1000},
-                                                       {9, 1},    {10, 8},   {15, 4}};
+    constexpr std::pair<uint16_t, int64_t> kTimes[] = {
+        {1, 1000}, {2, 1000}, {6, 13}, {89, 100}, {7, 700}, {8, 1000}, {9, 1}, {10, 8}, {15, 4}};
     for (const auto &[number, value] : kTimes) {
       drive.list().at(number).value = value;
       drive.list().at(number).given = true;

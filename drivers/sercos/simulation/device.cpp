@@ -264,7 +264,8 @@ void Device::runCommands() noexcept {
   bool good = true;
   if (idn == kCheckPhase3) {
     checkPhase3();
-    good = readyFor3_ = list_.at(kInvalidPhase2).list.empty() && !faults_.failPhase3 && !failPhase3_;
+    good = readyFor3_ =
+        list_.at(kInvalidPhase2).list.empty() && !faults_.failPhase3 && !failPhase3_;
   } else if (idn == kCheckPhase4) {
     IdnEntry &invalid = list_.at(kInvalidPhase3);
     invalid.clear();
