@@ -14,8 +14,9 @@
 
 namespace stride::sercos {
 
-/// What a drive is sent at the end of a cycle is valid from the MST of the next one on, and reached
-/// at that of the one after it; what it says at an MST is known in that cycle.
+/// What a drive is sent at the end of a cycle goes with the MDT of the next one, is valid from the
+/// MST after that on, and reached at the one after that; what it says at an MST is known in that
+/// cycle. So a set position is seen as the actual one three cycles later, with ideal mechanics.
 class SercosDriver : public bus::AxisDriver {
 public:
   SercosDriver(const bus::GroupSetup &setup, std::unique_ptr<Ring> ring);

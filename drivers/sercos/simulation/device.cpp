@@ -60,11 +60,10 @@ void Device::enter(Phase phase) noexcept {
 }
 
 void Device::receiveMst(uint8_t phase) noexcept {
-  if (faults_.leaves || occurs(faults_.loseMsts)) {
+  if (hasLeft() || occurs(faults_.loseMsts)) {
     missMst();
     return;
   }
-  missedMsts_ = 0;
   const auto now = static_cast<uint8_t>(phase_);
   if (phase > static_cast<uint8_t>(Phase::Four))
     raiseInterfaceError(interface_status::kInvalidPhase);
@@ -85,6 +84,7 @@ void Device::receiveMst(uint8_t phase) noexcept {
       return;
     }
   }
+  missedMsts_ = 0;
   runCommands();
   onCycle(periodNs_);
   updateStatus();
@@ -113,7 +113,7 @@ void Device::missMdt() noexcept {
 // ---- telegrams
 
 bool Device::transmit(DriveTelegram &telegram) noexcept {
-  if (faults_.leaves || address_ == kNoAddress || phase_ == Phase::Zero)
+  if (hasLeft() || address_ == kNoAddress || phase_ == Phase::Zero)
     return false;
   const bool cyclic = phase_ == Phase::Three || phase_ == Phase::Four;
   if ((!cyclic && !asked_) || missedMsts_ != 0 || occurs(faults_.loseAts))
@@ -137,7 +137,7 @@ bool Device::transmit(DriveTelegram &telegram) noexcept {
 void Device::receiveMdt(uint8_t address, std::span<const uint8_t> data) noexcept {
   const bool cyclic = phase_ == Phase::Three || phase_ == Phase::Four;
   asked_ = false;
-  if (phase_ == Phase::Zero || faults_.leaves || address_ == kNoAddress)
+  if (phase_ == Phase::Zero || hasLeft() || address_ == kNoAddress)
     return;
   if (occurs(faults_.loseMdts)) {
     missMdt();
@@ -165,7 +165,7 @@ void Device::receiveMdt(uint8_t address, std::span<const uint8_t> data) noexcept
 void Device::receiveRecord(std::span<const uint8_t> record) noexcept {
   const uint16_t before = controlWord_;
   const uint16_t word = wordAt(record, 0);
-  if (!faults_.mute)
+  if (!faults_.mute && !mute_)
     channel_.receive(word, wordAt(record, 2), faults_.busyCycles);
   if (phase_ != Phase::Four)
     return;
@@ -264,7 +264,8 @@ void Device::runCommands() noexcept {
   bool good = true;
   if (idn == kCheckPhase3) {
     checkPhase3();
-    good = readyFor3_ = list_.at(kInvalidPhase2).list.empty() && !faults_.failPhase3;
+    good = readyFor3_ =
+        list_.at(kInvalidPhase2).list.empty() && !faults_.failPhase3 && !failPhase3_;
   } else if (idn == kCheckPhase4) {
     IdnEntry &invalid = list_.at(kInvalidPhase3);
     invalid.clear();
@@ -317,6 +318,12 @@ void Device::setClass3(uint16_t bits) noexcept {
   const int64_t changed = (entry.value ^ bits) & list_.value(kClass3Mask);
   entry.value = bits;
   class3Changed_ = class3Changed_ || changed != 0;
+}
+
+void Device::setDisturbed(bool leaves, bool mute, bool failPhase3) noexcept {
+  leaves_ = leaves;
+  mute_ = mute;
+  failPhase3_ = failPhase3;
 }
 
 bool Device::isCyclicCommand(Idn idn) const noexcept {

@@ -114,10 +114,13 @@ protected:
   void raiseInterfaceError(uint16_t bits) noexcept;
   void setClass2(uint16_t bits) noexcept; ///< Warnings.
   void setClass3(uint16_t bits) noexcept; ///< Messages.
+  /// Faults of the same names that come from elsewhere than faults(), and add to those.
+  void setDisturbed(bool leaves, bool mute, bool failPhase3) noexcept;
   /// Whether the IDN comes with the MDT.
   [[nodiscard]] bool isCyclicCommand(Idn idn) const noexcept;
 
 private:
+  [[nodiscard]] bool hasLeft() const { return faults_.leaves || leaves_; }
   struct Cyclic {
     std::array<IdnEntry *, kMostCyclicObjects> entries{};
     size_t count = 0;
@@ -157,6 +160,9 @@ private:
   uint8_t address_;
   uint8_t baudRate_ = 2;
   int64_t periodNs_ = 0;
+  bool leaves_ = false; ///< setDisturbed.
+  bool mute_ = false;
+  bool failPhase3_ = false;
   bool asked_ = false;      ///< The last MDT was for it.
   bool readyFor3_ = false;  ///< S-0-0127 has been executed.
   bool readyFor4_ = false;  ///< S-0-0128 has been executed.

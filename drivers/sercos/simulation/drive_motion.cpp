@@ -50,7 +50,7 @@ void SimulatedDrive::rest() noexcept {
   demanded_ = target_ = mechanics_.position();
   demandRest_ = 0;
   velocityDemanded_ = 0;
-  cyclesLeft_ = 1;
+  cyclesLeft_ = 0;
   commanded_ = scaling_.toRing(demanded_) + origin_;
 }
 
@@ -100,7 +100,7 @@ void SimulatedDrive::regulate(double seconds) noexcept {
 dummy::Demand SimulatedDrive::demandFor(double seconds) noexcept {
   if (homing_ != Homing::Idle)
     return home();
-  if (!follows())
+  if (!follows_)
     return brake(seconds);
   switch (operation()) {
   case OperationMode::Torque: {
@@ -124,7 +124,7 @@ dummy::Demand SimulatedDrive::followPosition(double seconds) noexcept {
   demand.from = demanded_;
   demand.velocityFrom = velocityDemanded_;
   demand.to = cyclesLeft_ > 1 ? demanded_ + (target_ - demanded_) / cyclesLeft_ : target_;
-  cyclesLeft_ = std::max<int64_t>(cyclesLeft_ - 1, 1);
+  cyclesLeft_ = std::max<int64_t>(cyclesLeft_ - 1, 0);
   demand.velocity = static_cast<double>(demand.to - demand.from) / seconds;
   demanded_ = demand.to;
   velocityDemanded_ = demand.velocity;
@@ -165,7 +165,8 @@ dummy::Demand SimulatedDrive::brake(double seconds) noexcept {
 /// The command values for the cycle that begins.
 void SimulatedDrive::latch() noexcept {
   velocity_ = torque_ = 0;
-  if (phase() != Phase::Four || !follows())
+  follows_ = phase() == Phase::Four && mayFollow();
+  if (!follows_)
     return;
   const IdnList &data = list();
   switch (operation()) {
@@ -190,7 +191,7 @@ void SimulatedDrive::latch() noexcept {
   const int64_t cycle = std::max<int64_t>(data.value(kCommunicationCycle), 1);
   const int64_t cycles = std::max<int64_t>(data.value(kControlUnitCycle) / cycle, 1);
   const bool sync = (controlWord() & control::kIpoSync) != 0;
-  if (cycles > 1 && sync == ipoSync_ && cyclesLeft_ > 1)
+  if (cycles > 1 && sync == ipoSync_ && cyclesLeft_ > 0)
     return; // on the way to the last one
   ipoSync_ = sync;
   cyclesLeft_ = cycles;

@@ -54,9 +54,10 @@ void DriveScaling::configure(const IdnList &list) {
   const bool given = (speed & scaling::kParameter) != 0;
   const double unit =
       static_cast<double>(list.value(kVelocityFactor)) * powerOfTen(list.value(kVelocityExponent));
+  const double preferred = (speed & scaling::kSeconds) != 0 ? 1e-6 : 1e-4; // of turns
   velocity_ = 1;
   if ((speed & scaling::kMethod) == scaling::kRotational)
-    velocity_ = (given ? unit : 1e-4) / minute * perTurn_;
+    velocity_ = (given ? unit : preferred) / minute * perTurn_;
   else if ((speed & scaling::kMethod) == scaling::kLinear)
     velocity_ = (given ? unit : 1e-6) / minute * perMetre_;
 

@@ -112,9 +112,7 @@ void SimulatedDrive::disturb() noexcept {
   if (sim_ == nullptr)
     return;
   DriveSim &sim = *sim_;
-  faults().leaves = sim.bLoseCommunication != 0;
-  faults().mute = sim.bHoldParameters != 0;
-  faults().failPhase3 = sim.bFailStartUp != 0;
+  setDisturbed(sim.bLoseCommunication != 0, sim.bHoldParameters != 0, sim.bFailStartUp != 0);
   persistent_ = sim.bErrorPersistent != 0;
   fail(sim.wDriveError);
   if (rising(sim.bMoveByHand, sim.bOldHand))

@@ -58,8 +58,7 @@ bool SimulatedDrive::positions() const {
   return operation() != OperationMode::Torque && operation() != OperationMode::Velocity;
 }
 
-/// It does what the cyclic command values say.
-bool SimulatedDrive::follows() const {
+bool SimulatedDrive::mayFollow() const {
   return power_ == Power::On && (controlWord() & control::kGo) != 0 && homing_ == Homing::Idle &&
          list().find(kDriveHoming)->state == data_state::kIdle;
 }
@@ -147,7 +146,7 @@ uint16_t SimulatedDrive::deviceStatus() const noexcept {
     ready = Ready::Power;
   return static_cast<uint16_t>((static_cast<unsigned>(ready) << status::kReadyShift) |
                                (static_cast<unsigned>(mode_) << status::kModeShift) |
-                               (follows() ? status::kFollows : 0U));
+                               (follows_ ? status::kFollows : 0U));
 }
 
 void SimulatedDrive::onPhase(Phase before) noexcept {

@@ -61,7 +61,7 @@ private:
   [[nodiscard]] bool supports(int64_t operationMode) const;
   [[nodiscard]] OperationMode operation() const;
   [[nodiscard]] bool positions() const;
-  [[nodiscard]] bool follows() const;
+  [[nodiscard]] bool mayFollow() const;
 
   // drive_motion.cpp: what moves.
   void move(double seconds) noexcept;
@@ -107,6 +107,7 @@ private:
   bool armed_ = false;        ///< The master has let go of "on" since the drive could be.
   bool persistent_ = false;   ///< S-0-0099 does not help.
   uint32_t switchCycles_ = 0; ///< Until it is on.
+  bool follows_ = false;      ///< In this cycle it does what the command values say.
   uint8_t mode_ = 0;
   uint16_t failed_ = 0;  ///< Number of fail(), until S-0-0099.
   double cycle_;         ///< For which the mechanics are configured. [s]
@@ -117,7 +118,7 @@ private:
   int64_t origin_ = 0;     ///< Position on the ring minus that of the mechanics. [ring units]
   int64_t commanded_ = 0;  ///< Over any number of turns. [ring units]
   int64_t target_ = 0;     ///< [inc]
-  int64_t cyclesLeft_ = 1; ///< Until the target is to be reached.
+  int64_t cyclesLeft_ = 0; ///< Until the target is to be reached.
   bool ipoSync_ = false;
   double velocity_ = 0;         ///< [inc/s]
   double torque_ = 0;           ///< [Nm]
