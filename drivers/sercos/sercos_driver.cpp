@@ -21,8 +21,7 @@ SercosDriver::SercosDriver(const bus::GroupSetup &setup, std::unique_ptr<Ring> r
     : SercosDriver(sercosSetup(setup), std::move(ring)) {}
 
 SercosDriver::SercosDriver(const SercosSetup &setup, std::unique_ptr<Ring> ring)
-    : master_(setup.master, std::move(ring)), faults_(setup.faults),
-      standing_(setup.faults.size()),
+    : master_(setup.master, std::move(ring)), faults_(setup.faults), standing_(setup.faults.size()),
       stopPatience_(cyclesOf(kStopPatience, setup.master.cycle)),
       offPatience_(cyclesOf(kOffPatience, setup.master.cycle)) {}
 

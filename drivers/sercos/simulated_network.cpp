@@ -17,11 +17,14 @@ std::vector<IdnRow> moreRows(const DriveSettings &settings) {
   std::vector<IdnRow> rows;
   const auto add = [&rows](Idn idn, const Attribute &attribute, uint8_t cyclic) {
     const bool own = (idn & kProductBit) != 0;
-    const bool known = std::any_of(rows.begin(), rows.end(),
-                                   [idn](const IdnRow &row) { return row.idn == idn; });
+    const bool known =
+        std::any_of(rows.begin(), rows.end(), [idn](const IdnRow &row) { return row.idn == idn; });
     if (own && !known)
-      rows.push_back({.idn = idn, .name = "Parameter of the maker", .attribute = attribute,
-                      .cyclic = cyclic, .room = attribute.list ? size_t{64} : size_t{0}});
+      rows.push_back({.idn = idn,
+                      .name = "Parameter of the maker",
+                      .attribute = attribute,
+                      .cyclic = cyclic,
+                      .room = attribute.list ? size_t{64} : size_t{0}});
   };
   using namespace simulation::rows;
   for (const CyclicObject &object : settings.cyclic.mdt.objects())

@@ -371,11 +371,9 @@ app::RuntimeLayouts runtimeLayouts() {
           ::st::SM_DriveBasic::SMC_ENCODER_REF__layout__};
 }
 
-std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
-                                                            task::TaskSet &tasks, InputPort &inputs,
-                                                            bus::BusKind buses,
-                                                            const bus::BusRecording &recording,
-                                                            const std::string &files) {
+std::vector<std::unique_ptr<task::CycleHook>>
+addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs,
+              bus::BusKind buses, const bus::BusRecording &recording, const std::string &files) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);

@@ -114,8 +114,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
        {"drivers/can/port", "drivers/dummy", "runtime/bus", "runtime/iec", "st"}},
       {"drivers/sercos/protocol", {}},
       {"drivers/sercos/ring", {"drivers/sercos/protocol"}},
-      // The driver's own folder: its schema, which is data.
-      {"drivers/sercos/plan", {"drivers/sercos", "drivers/sercos/protocol", "runtime/bus"}},
+      {"drivers/sercos/plan", {"drivers/sercos/protocol", "runtime/bus"}},
       {"drivers/sercos/master",
        {"drivers/sercos/plan", "drivers/sercos/ring", "drivers/sercos/protocol", "runtime/bus",
         "runtime/iec"}},

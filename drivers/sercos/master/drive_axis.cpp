@@ -195,8 +195,8 @@ void DriveAxis::chooseMode() {
 uint32_t DriveAxis::targetPosition(bool regulated) const {
   if (regulated || (status_.received & cyclic::kPosition) == 0)
     return command_.position;
-  const bool holding = power_.torque() && !homing_.active() &&
-                       status_.controllerMode == kPositionControl;
+  const bool holding =
+      power_.torque() && !homing_.active() && status_.controllerMode == kPositionControl;
   return holding ? lastTarget_ : status_.position;
 }
 
@@ -234,8 +234,9 @@ void DriveAxis::writeTargets(std::span<uint8_t> record) {
   if (const uint32_t place = mdt.placeOf(idns::kVelocityCommand); place != 0)
     putLong(record, place, velocity);
   if (const uint32_t place = mdt.placeOf(idns::kTorqueCommand); place != 0)
-    putWord(record, place,
-            static_cast<uint16_t>(saturated(targetTorque(regulated) / torqueUnit_, kLargestTorque)));
+    putWord(
+        record, place,
+        static_cast<uint16_t>(saturated(targetTorque(regulated) / torqueUnit_, kLargestTorque)));
 }
 
 bool DriveAxis::atRest() const { return !power_.torque() || resting_ >= kRestCycles; }

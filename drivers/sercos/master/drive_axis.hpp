@@ -82,9 +82,9 @@ private:
   uint32_t resting_ = 0;    ///< Cycles without motion.
   uint32_t modeWaited_ = 0; ///< For the mode that is wanted. [cycles]
   uint16_t statusWord_ = 0;
-  uint16_t class1_ = 0; ///< S-0-0011, of the present error.
-  uint8_t wantedMode_ = 0;  ///< Its place in modes_.
-  uint8_t refused_ = 0;     ///< The controller mode that the drive has not taken.
+  uint16_t class1_ = 0;    ///< S-0-0011, of the present error.
+  uint8_t wantedMode_ = 0; ///< Its place in modes_.
+  uint8_t refused_ = 0;    ///< The controller mode that the drive has not taken.
   Reset reset_ = Reset::None;
   bool askedClass1_ = false;
   bool askedManufacturer_ = false;

@@ -18,19 +18,19 @@ inline uint32_t cyclesOf(double seconds, double cycle) {
 }
 
 struct DriveConfig {
-  uint8_t address = 1; ///< wDriveId.
+  uint8_t address = 1;  ///< wDriveId.
   double cycle = 0.003; ///< [s]
   DriveSettings settings;
-  std::vector<IdnValue> file;    ///< Of its parameter file: written as soon as a phase allows it.
-  bool rotary = false;           ///< Else linear.
-  double period = 0;             ///< Of a rotary axis. [inc]
-  double torqueRated = 100;      ///< What 100 % are. [Nm]
-  bool homesItself = true;       ///< S-0-0148 makes the reference run of MC_Home.
-  uint8_t probeInputs = 0;       ///< Bit n: input n of DriveStatus.
-  uint32_t serviceTimeout = 10;  ///< For a step of the service channel. [telegrams]
+  std::vector<IdnValue> file;     ///< Of its parameter file: written as soon as a phase allows it.
+  bool rotary = false;            ///< Else linear.
+  double period = 0;              ///< Of a rotary axis. [inc]
+  double torqueRated = 100;       ///< What 100 % are. [Nm]
+  bool homesItself = true;        ///< S-0-0148 makes the reference run of MC_Home.
+  uint8_t probeInputs = 0;        ///< Bit n: input n of DriveStatus.
+  uint32_t serviceTimeout = 10;   ///< For a step of the service channel. [telegrams]
   uint32_t commandTimeout = 1000; ///< For S-0-0127 and S-0-0128. [cycles]
-  uint32_t powerTimeout = 600;   ///< [cycles]
-  uint32_t modeTimeout = 200;    ///< [cycles]
+  uint32_t powerTimeout = 600;    ///< [cycles]
+  uint32_t modeTimeout = 200;     ///< [cycles]
 };
 
 /// Modes that the drive can be switched between, in the order of S-0-0032, S-0-0033, S-0-0034:

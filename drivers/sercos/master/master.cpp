@@ -85,8 +85,8 @@ bus::StartUp Master::init(size_t drive, uint16_t &progress, bus::Message &messag
     return bus::StartUp::Failed;
   }
   if (down_) {
-    const bool byOne = std::any_of(slaves_.begin(), slaves_.end(),
-                                   [](const Slave &one) { return one.failed(); });
+    const bool byOne =
+        std::any_of(slaves_.begin(), slaves_.end(), [](const Slave &one) { return one.failed(); });
     if (byOne)
       return bus::StartUp::Busy; // that one says why
     message = reason_;
@@ -215,9 +215,8 @@ void Master::phaseZero() {
 }
 
 bool Master::isConfigured(uint8_t address) const {
-  return std::any_of(slaves_.begin(), slaves_.end(), [address](const Slave &slave) {
-    return slave.config().address == address;
-  });
+  return std::any_of(slaves_.begin(), slaves_.end(),
+                     [address](const Slave &slave) { return slave.config().address == address; });
 }
 
 size_t Master::nextWanted(size_t from) const {
@@ -250,8 +249,7 @@ void Master::phaseOne(uint8_t answering) {
   }
   const DriveTelegram *one = nullptr;
   if (!isConfigured(answering) && answersOf(answering, one) > 0)
-    news_.say("address ", uint32_t{answering},
-              " answers and is not configured: it is left out");
+    news_.say("address ", uint32_t{answering}, " answers and is not configured: it is left out");
   if (other_ > kLastAddress && answering >= kLastAddress && commanded_ > Phase::One)
     enter(Phase::Two);
 }
@@ -394,9 +392,9 @@ void Master::fillMdt() {
   sent_.mdtLength = static_cast<uint16_t>(timing_.mdtLength);
   for (size_t i = 0; i < slaves_.size(); ++i)
     if (wanted_[i])
-      slaves_[i].fill(std::span<uint8_t>(sent_.mdtData)
-                          .subspan(slots_[i].placeInMdt - 1U,
-                                   slaves_[i].config().settings.cyclic.mdt.bytes()));
+      slaves_[i].fill(
+          std::span<uint8_t>(sent_.mdtData)
+              .subspan(slots_[i].placeInMdt - 1U, slaves_[i].config().settings.cyclic.mdt.bytes()));
 }
 
 } // namespace stride::sercos

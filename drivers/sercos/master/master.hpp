@@ -1,4 +1,5 @@
-// The master of a Sercos ring: phases 0 to 4, all telegrams, and what becomes of a ring that breaks.
+// The master of a Sercos ring: phases 0 to 4, all telegrams, and what becomes of a ring that
+// breaks.
 #ifndef STRIDE_DRIVERS_SERCOS_MASTER_MASTER_HPP
 #define STRIDE_DRIVERS_SERCOS_MASTER_MASTER_HPP
 
@@ -97,9 +98,9 @@ private:
   MasterCounters counters_;
   bus::Message reason_; ///< Why the ring is down.
   uint32_t cycleUs_;
-  uint32_t waited_ = 0;   ///< In this phase. [cycles]
-  uint32_t patience_;     ///< For the ring to close, and for ATs after a phase. [cycles]
-  uint32_t returns_ = 0;  ///< Of the MST in phase 0, one after the other.
+  uint32_t waited_ = 0;  ///< In this phase. [cycles]
+  uint32_t patience_;    ///< For the ring to close, and for ATs after a phase. [cycles]
+  uint32_t returns_ = 0; ///< Of the MST in phase 0, one after the other.
   uint32_t mstMisses_ = 0;
   uint32_t tries_ = 0;    ///< Phase 1: of this drive.
   size_t asked_ = 0;      ///< Phases 1 and 2: which drive; their number: none any more.

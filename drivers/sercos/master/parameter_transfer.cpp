@@ -34,9 +34,9 @@ constexpr std::array<ResultRow, 11> kResults = {{
 
 /// Commands of the moment: nobody wants them from a file.
 constexpr std::array kMomentary = {
-    idns::kVelocityCommand, idns::kAdditiveVelocity, idns::kPositionCommand, idns::kTorqueCommand,
-    idns::kAdditiveTorque,  idns::kControlWord,      idns::kProbe1Enable,    idns::kProbe2Enable,
-    idns::kHomingEnable};
+    idns::kVelocityCommand, idns::kAdditiveVelocity, idns::kPositionCommand,
+    idns::kTorqueCommand,   idns::kAdditiveTorque,   idns::kControlWord,
+    idns::kProbe1Enable,    idns::kProbe2Enable,     idns::kHomingEnable};
 
 template <size_t N>
 std::string_view copied(std::span<const uint8_t> bytes, std::array<char, N> &to) {

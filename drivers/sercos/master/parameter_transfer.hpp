@@ -15,9 +15,9 @@
 namespace stride::sercos {
 
 /// What a number stands for: bits 0 to 15 the IDN, bits 16 to 18 the element (0: the operation
-/// data), bits 19 to 30 which piece of a list or a text: 0 it is none, 1 its length in bytes, from 2
-/// on four bytes each. Reading the length reads the list; writing the length writes what its pieces
-/// have been before.
+/// data), bits 19 to 30 which piece of a list or a text: 0 it is none, 1 its length in bytes, from
+/// 2 on four bytes each. Reading the length reads the list; writing the length writes what its
+/// pieces have been before.
 struct ParameterPlace {
   Idn idn = 0;
   Element element = Element::Data;

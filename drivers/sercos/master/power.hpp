@@ -10,9 +10,9 @@ namespace stride::sercos {
 
 /// What a drive shall do.
 enum class PowerTarget : uint8_t {
-  Off,     ///< It stops as well as it can, then it has no torque.
-  Halt,    ///< Under torque, standing.
-  Follow,  ///< Its command values.
+  Off,    ///< It stops as well as it can, then it has no torque.
+  Halt,   ///< Under torque, standing.
+  Follow, ///< Its command values.
 };
 
 /// Leads a drive by the bits 15 to 13 of its control word. A shutdown by an error is over when the
@@ -54,7 +54,7 @@ private:
   bool started_ = false;
   bool fault_ = false;
   bool reset_ = false;
-  bool tried_ = false; ///< This acknowledgement has had its reset.
+  bool tried_ = false;        ///< This acknowledgement has had its reset.
   bool acknowledged_ = false; ///< The error, since it came.
   bool stuck_ = false;
 };

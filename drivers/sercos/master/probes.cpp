@@ -62,8 +62,8 @@ void Probes::answered(const ServiceWish &wish, const ServiceAnswer &answer) {
     for (size_t edge = 0; answer.done && edge < kEdges; ++edge) {
       const Enable &enable = enables_[edge / 2];
       const auto bit = static_cast<uint8_t>(1U << edge);
-      if (enable.on && !enable.again && (static_cast<uint64_t>(answer.value) & bit & wanted_) != 0 &&
-          (captured_ & bit) == 0)
+      if (enable.on && !enable.again &&
+          (static_cast<uint64_t>(answer.value) & bit & wanted_) != 0 && (captured_ & bit) == 0)
         seen_ = seen_ | bit;
     }
   } else if (wish.idn >= idns::kProbe1Positive && wish.idn <= idns::kProbe2Negative) {

@@ -62,15 +62,14 @@ double velocityUnit(const ScalingFacts &facts) {
   if (kind == scaling::kRotational) {
     if (own && has(facts.velocity, scaling::kRadians))
       unit /= kTurn;
-    const double turn = has(facts.position, scaling::kParameters)
-                            ? static_cast<double>(facts.turn)
-                            : kPreferredTurn;
+    const double turn = has(facts.position, scaling::kParameters) ? static_cast<double>(facts.turn)
+                                                                  : kPreferredTurn;
     return unit * turn;
   }
-  const double increment = has(facts.position, scaling::kParameters)
-                               ? static_cast<double>(facts.linearFactor) *
-                                     powerOfTen(facts.linearExponent)
-                               : 1e-7;
+  const double increment =
+      has(facts.position, scaling::kParameters)
+          ? static_cast<double>(facts.linearFactor) * powerOfTen(facts.linearExponent)
+          : 1e-7;
   return unit / increment;
 }
 
@@ -123,8 +122,8 @@ int32_t PositionCounter::command(uint32_t counter) {
   const auto way = static_cast<int32_t>(counter - told_);
   told_ = counter;
   if (modulo_ == 0) {
-    toldValue_ = static_cast<int32_t>(static_cast<uint32_t>(toldValue_) +
-                                      static_cast<uint32_t>(way));
+    toldValue_ =
+        static_cast<int32_t>(static_cast<uint32_t>(toldValue_) + static_cast<uint32_t>(way));
     return toldValue_;
   }
   const auto turn = static_cast<int64_t>(modulo_);

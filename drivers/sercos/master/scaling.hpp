@@ -66,7 +66,7 @@ private:
   uint32_t modulo_ = 0;
   uint32_t counter_ = 0;
   int32_t shown_ = 0;
-  uint32_t told_ = 0;      ///< The counter that the drive has been told last …
+  uint32_t told_ = 0;     ///< The counter that the drive has been told last …
   int32_t toldValue_ = 0; ///< … and how.
 };
 

@@ -189,7 +189,8 @@ void ServiceChannel::list(uint16_t info) {
     if (!writes_)
       size_ = info;
     // What is empty ends with the second length.
-    go(Step::Room, element_, writes_, size_ == 0, writes_ ? static_cast<uint16_t>(size_) : uint16_t{0});
+    go(Step::Room, element_, writes_, size_ == 0,
+       writes_ ? static_cast<uint16_t>(size_) : uint16_t{0});
     return;
   }
   if (size_ > kMost) {
@@ -227,8 +228,7 @@ int64_t ServiceChannel::number() const {
   uint64_t word = 0;
   for (size_t i = 0; i < count; ++i)
     word |= uint64_t{bytes_[i]} << 8 * i;
-  if (count == 0 || count == 8 || attribute_.display != Display::Signed ||
-      element_ == Element::Idn)
+  if (count == 0 || count == 8 || attribute_.display != Display::Signed || element_ == Element::Idn)
     return static_cast<int64_t>(word);
   const size_t unused = 64 - 8 * count;
   return static_cast<int64_t>(word << unused) >> unused;

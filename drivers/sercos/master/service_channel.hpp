@@ -64,9 +64,9 @@ private:
     Open,
     AttributeLow,
     AttributeHigh,
-    Single,  ///< An element of one word.
-    Length,  ///< The bytes in use.
-    Room,    ///< The most that there can be.
+    Single, ///< An element of one word.
+    Length, ///< The bytes in use.
+    Room,   ///< The most that there can be.
     Words,
   };
 
@@ -101,7 +101,7 @@ private:
   Step step_ = Step::None;
   State state_ = State::Idle;
   bool writes_ = false;
-  bool open_ = false; ///< The channel is open for idn_ …
+  bool open_ = false;  ///< The channel is open for idn_ …
   bool known_ = false; ///< … and its attribute has been read.
   bool timedOut_ = false;
   bool draining_ = false; ///< A step that nobody waits for any more is not over.

@@ -140,8 +140,8 @@ void Slave::endWish(News &news) {
     answer.value = channel_.number();
   if (answer.done && wish_.kind == ServiceWish::Kind::Text) {
     const std::span<const uint8_t> bytes = channel_.bytes();
-    news.say("address ", uint32_t{config_.address}, " has an error, S-0-0011 = ",
-             WordText(axis_.status().errorId), ": ",
+    news.say("address ", uint32_t{config_.address},
+             " has an error, S-0-0011 = ", WordText(axis_.status().errorId), ": ",
              std::string_view(reinterpret_cast<const char *>(bytes.data()), bytes.size()));
   }
   axis_.answered(wish_, answer);

@@ -10,17 +10,17 @@ namespace stride::sercos {
 namespace {
 
 /// In the order in which it is read. Drives may lack the last one.
-constexpr std::array kCapabilities = {idns::kShortestAtStart, idns::kAtToMdt,
-                                      idns::kShortestFeedback, idns::kMdtToMst,
+constexpr std::array kCapabilities = {idns::kShortestAtStart,   idns::kAtToMdt,
+                                      idns::kShortestFeedback,  idns::kMdtToMst,
                                       idns::kCommandProcessing, idns::kAtToAt};
-constexpr std::array kTimes = {idns::kControlUnitCycle, idns::kCommunicationCycle, idns::kMdtStart,
-                               idns::kAtStart, idns::kFeedbackSampling, idns::kCommandValid,
-                               idns::kPlaceInMdt, idns::kMdtLength};
+constexpr std::array kTimes = {
+    idns::kControlUnitCycle, idns::kCommunicationCycle, idns::kMdtStart,   idns::kAtStart,
+    idns::kFeedbackSampling, idns::kCommandValid,       idns::kPlaceInMdt, idns::kMdtLength};
 constexpr std::array kScalings = {
-    idns::kPositionScaling, idns::kLinearFactor,     idns::kLinearExponent,
-    idns::kRotationalResolution, idns::kModulo,      idns::kVelocityScaling,
-    idns::kVelocityFactor,  idns::kVelocityExponent, idns::kTorqueScaling,
-    idns::kTorqueFactor,    idns::kTorqueExponent};
+    idns::kPositionScaling,      idns::kLinearFactor,     idns::kLinearExponent,
+    idns::kRotationalResolution, idns::kModulo,           idns::kVelocityScaling,
+    idns::kVelocityFactor,       idns::kVelocityExponent, idns::kTorqueScaling,
+    idns::kTorqueFactor,         idns::kTorqueExponent};
 
 /// Values of S-0-0032 … S-0-0034 for controller modes.
 uint16_t operationMode(uint8_t controllerMode) {

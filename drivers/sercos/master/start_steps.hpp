@@ -26,11 +26,11 @@ enum class StartOp : uint8_t {
 
 struct StartStep {
   StartOp op = StartOp::Write;
-  IdnValue value;        ///< Its IDN, and what is written.
-  bool optional = false; ///< The drive may lack the IDN.
-  bool listed = false;   ///< It is from a list of stride.toml.
-  uint8_t bytes = 0;     ///< CheckLength.
-  uint16_t mask = 0;     ///< ProfileBits.
+  IdnValue value;             ///< Its IDN, and what is written.
+  bool optional = false;      ///< The drive may lack the IDN.
+  bool listed = false;        ///< It is from a list of stride.toml.
+  uint8_t bytes = 0;          ///< CheckLength.
+  uint16_t mask = 0;          ///< ProfileBits.
   std::string_view text = {}; ///< ProfileBits: what they mean.
 };
 

@@ -46,7 +46,7 @@ public:
 private:
   enum class Part : uint8_t {
     Begin,
-    Asked,   ///< Its first question is under way.
+    Asked, ///< Its first question is under way.
     Writing,
     Polling, ///< The state of a command.
     Ending,  ///< A command is being cleared.

@@ -61,12 +61,12 @@ struct CyclicPlan {
 
 /// What stride.toml wants to be exchanged.
 struct CyclicWish {
-  bool io = false; ///< An I/O device: only what is additional.
-  uint8_t controlType = 5;                ///< wControlType.
-  std::array<uint16_t, 3> send{};         ///< wCyclicDataS1 …, with wControlType 0.
-  std::array<uint16_t, 3> receive{};      ///< wCyclicDataR1 …
-  std::vector<CyclicObject> more;         ///< Also from the drive.
-  std::vector<CyclicObject> moreSent;     ///< Also to the drive.
+  bool io = false;                    ///< An I/O device: only what is additional.
+  uint8_t controlType = 5;            ///< wControlType.
+  std::array<uint16_t, 3> send{};     ///< wCyclicDataS1 …, with wControlType 0.
+  std::array<uint16_t, 3> receive{};  ///< wCyclicDataR1 …
+  std::vector<CyclicObject> more;     ///< Also from the drive.
+  std::vector<CyclicObject> moreSent; ///< Also to the drive.
 };
 
 /// `errors`: what cannot be exchanged.

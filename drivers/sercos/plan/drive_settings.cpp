@@ -1,7 +1,5 @@
 #include "drivers/sercos/plan/drive_settings.hpp"
 
-#include "drivers/sercos/schema.hpp"
-
 #include <algorithm>
 #include <charconv>
 
@@ -17,15 +15,24 @@ constexpr std::string_view kTimes = "the cycle and the times of the ring";
 constexpr std::string_view kTelegrams = "`wControlType`, `additional` and `additional_sent`";
 constexpr std::string_view kCommand = "the driver: it is a procedure command";
 constexpr std::array<OwnedRow, 18> kOwned = {{
-    {idns::kControlUnitCycle, kTimes}, {idns::kCommunicationCycle, kTimes},
-    {idns::kAtStart, kTimes},          {idns::kFeedbackSampling, kTimes},
-    {idns::kCommandValid, kTimes},     {idns::kMdtStart, kTimes},
-    {idns::kPlaceInMdt, kTelegrams},   {idns::kMdtLength, kTelegrams},
-    {idns::kTelegramType, kTelegrams}, {idns::kAtList, kTelegrams},
-    {idns::kMdtList, kTelegrams},      {idns::kPrimaryMode, kTelegrams},
-    {idns::kSecondaryMode1, kTelegrams}, {idns::kSecondaryMode2, kTelegrams},
-    {idns::kCheckPhase3, kCommand},    {idns::kCheckPhase4, kCommand},
-    {idns::kDriveHoming, kCommand},    {idns::kProbing, kCommand},
+    {idns::kControlUnitCycle, kTimes},
+    {idns::kCommunicationCycle, kTimes},
+    {idns::kAtStart, kTimes},
+    {idns::kFeedbackSampling, kTimes},
+    {idns::kCommandValid, kTimes},
+    {idns::kMdtStart, kTimes},
+    {idns::kPlaceInMdt, kTelegrams},
+    {idns::kMdtLength, kTelegrams},
+    {idns::kTelegramType, kTelegrams},
+    {idns::kAtList, kTelegrams},
+    {idns::kMdtList, kTelegrams},
+    {idns::kPrimaryMode, kTelegrams},
+    {idns::kSecondaryMode1, kTelegrams},
+    {idns::kSecondaryMode2, kTelegrams},
+    {idns::kCheckPhase3, kCommand},
+    {idns::kCheckPhase4, kCommand},
+    {idns::kDriveHoming, kCommand},
+    {idns::kProbing, kCommand},
 }};
 
 /// IDNs that drives take no later than in that phase. [IEC 61491]
@@ -34,11 +41,20 @@ struct LatestRow {
   uint8_t phase;
 };
 constexpr std::array<LatestRow, 14> kLatest = {{
-    {idns::kSecondaryMode3, 3}, {idns::kVelocityScaling, 3}, {idns::kVelocityFactor, 3},
-    {idns::kVelocityExponent, 3}, {idns::kPositionScaling, 3}, {idns::kLinearFactor, 3},
-    {idns::kLinearExponent, 3}, {idns::kRotationalResolution, 3}, {idns::kTorqueScaling, 3},
-    {idns::kTorqueFactor, 3}, {idns::kTorqueExponent, 3}, {idns::kModulo, 3},
-    {idns::kPositionPolarity, 3}, {idns::kAccelerationScaling, 3},
+    {idns::kSecondaryMode3, 3},
+    {idns::kVelocityScaling, 3},
+    {idns::kVelocityFactor, 3},
+    {idns::kVelocityExponent, 3},
+    {idns::kPositionScaling, 3},
+    {idns::kLinearFactor, 3},
+    {idns::kLinearExponent, 3},
+    {idns::kRotationalResolution, 3},
+    {idns::kTorqueScaling, 3},
+    {idns::kTorqueFactor, 3},
+    {idns::kTorqueExponent, 3},
+    {idns::kModulo, 3},
+    {idns::kPositionPolarity, 3},
+    {idns::kAccelerationScaling, 3},
 }};
 
 std::vector<std::string> linesOf(const std::string &text) {
@@ -50,7 +66,6 @@ std::vector<std::string> linesOf(const std::string &text) {
   }
   return lines;
 }
-
 
 class Reader {
 public:
@@ -91,8 +106,9 @@ public:
     for (const std::string &line : linesOf(given_.text(key))) {
       const size_t colon = line.find(':');
       const auto idn = parseIdn(std::string_view(line).substr(0, colon));
-      const std::string_view length =
-          colon == std::string::npos ? std::string_view() : std::string_view(line).substr(colon + 1);
+      const std::string_view length = colon == std::string::npos
+                                          ? std::string_view()
+                                          : std::string_view(line).substr(colon + 1);
       if (!idn || (length != "2" && length != "4"))
         refuse(line, key, "an entry is an IDN and its length, 2 or 4 bytes: \"S-0-0189:4\"");
       else
@@ -133,7 +149,7 @@ bool isOwnedByDriver(Idn idn) {
 
 DriveSettings driveSettings(const common::SetupParameters &given) {
   DriveSettings settings;
-  settings.io = given.number("device_type") == static_cast<double>(kIoDevice);
+  settings.io = given.text("device_type") == "io";
   settings.profile = static_cast<PackProfile>(static_cast<int>(given.number("packprofile")));
   Reader reader(given, settings);
   reader.readLists();

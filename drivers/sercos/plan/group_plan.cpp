@@ -108,8 +108,8 @@ void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
   if (slow && plan.timing.shortestCycle != 0)
     help = "take a cycle of " + milliseconds(plan.timing.shortestCycle) +
            " or longer, a higher baud rate (wParam1), or part the drives between two rings";
-  findings.push_back({true, bus::GroupFinding::kGroup, plan.fault,
-                      slow ? "do not fit" : "is none of them", help});
+  findings.push_back(
+      {true, bus::GroupFinding::kGroup, plan.fault, slow ? "do not fit" : "is none of them", help});
 }
 
 } // namespace stride::sercos

@@ -21,7 +21,7 @@ struct GroupPlan {
   std::vector<DriveSettings> drives;
   std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
   std::string fault;               ///< Of the ring as a whole.
-  RingTiming timing; ///< With what drives have usually; start-up asks them.
+  RingTiming timing;               ///< With what drives have usually; start-up asks them.
 };
 
 GroupPlan planGroup(const bus::GroupSetup &setup);

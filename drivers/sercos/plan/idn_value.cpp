@@ -95,8 +95,8 @@ std::string_view describe(EncodeFault fault) {
   return kTexts[static_cast<size_t>(fault)];
 }
 
-EncodeFault encodeValue(const IdnValue &value, const Attribute &attribute,
-                        std::span<uint8_t> bytes, size_t &count) {
+EncodeFault encodeValue(const IdnValue &value, const Attribute &attribute, std::span<uint8_t> bytes,
+                        size_t &count) {
   count = 0;
   if (value.isText) {
     if (!attribute.list || attribute.bytes != 1)
@@ -115,8 +115,7 @@ EncodeFault encodeValue(const IdnValue &value, const Attribute &attribute,
   for (const int64_t number : value.numbers) {
     // What is signed and what is not only the drive knows for certain: both are taken.
     const unsigned bits = 8U * static_cast<unsigned>(size);
-    if (bits < 64 &&
-        (number >= int64_t{1} << bits || number < -(int64_t{1} << (bits - 1))))
+    if (bits < 64 && (number >= int64_t{1} << bits || number < -(int64_t{1} << (bits - 1))))
       return EncodeFault::Range;
     for (size_t i = 0; i < size; ++i)
       bytes[count++] = static_cast<uint8_t>(static_cast<uint64_t>(number) >> 8 * i);

@@ -41,8 +41,8 @@ enum class EncodeFault : uint8_t {
 std::string_view describe(EncodeFault fault);
 
 /// The bytes of the operation data, without the two lengths of a list; `count` of them.
-EncodeFault encodeValue(const IdnValue &value, const Attribute &attribute,
-                        std::span<uint8_t> bytes, size_t &count);
+EncodeFault encodeValue(const IdnValue &value, const Attribute &attribute, std::span<uint8_t> bytes,
+                        size_t &count);
 
 } // namespace stride::sercos
 

@@ -40,10 +40,10 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
       text += plan.faults[i] + "\n";
       continue;
     }
-    text += wide(std::to_string(setup.drives[i].id), 7) +
-            wide(std::to_string(cyclic.telegramType), 4) +
-            wide(std::to_string(cyclic.mdt.bytes()), 3) + wide(std::to_string(cyclic.at.bytes()), 2) +
-            contentOf(cyclic.mdt) + " -> " + contentOf(cyclic.at) + "\n";
+    text +=
+        wide(std::to_string(setup.drives[i].id), 7) + wide(std::to_string(cyclic.telegramType), 4) +
+        wide(std::to_string(cyclic.mdt.bytes()), 3) + wide(std::to_string(cyclic.at.bytes()), 2) +
+        contentOf(cyclic.mdt) + " -> " + contentOf(cyclic.at) + "\n";
   }
   if (!plan.fault.empty())
     text += "  " + plan.fault + "\n";

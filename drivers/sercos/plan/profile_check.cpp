@@ -43,11 +43,9 @@ std::vector<std::string> profileFaults(PackProfile profile, const common::SetupP
     faults.push_back(name + " has standard telegrams only, without `additional` data and without "
                             "wControlType \"CONFIGURABLE\"");
   const bool position = plan.mdt.carries(idns::kPositionCommand);
-  if (profile == PackProfile::BasicA &&
-      !(position && plan.at.carries(idns::kPositionFeedback1)))
+  if (profile == PackProfile::BasicA && !(position && plan.at.carries(idns::kPositionFeedback1)))
     faults.push_back(name + " sends positions to the drive and gets them back");
-  if (profile == PackProfile::BasicB &&
-      (position || !plan.mdt.carries(idns::kVelocityCommand)))
+  if (profile == PackProfile::BasicB && (position || !plan.mdt.carries(idns::kVelocityCommand)))
     faults.push_back(name + " sends velocities to the drive");
   if (given.number("iMovementType") != static_cast<double>(bus::plc::kRotary))
     faults.push_back(name + " is for rotary drives");
