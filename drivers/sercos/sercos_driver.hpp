@@ -14,9 +14,9 @@
 
 namespace stride::sercos {
 
-/// What a drive is sent at the end of a cycle goes with the MDT of the next one, is valid from the
-/// MST after that on, and reached at the one after that; what it says at an MST is known in that
-/// cycle. So a set position is seen as the actual one three cycles later, with ideal mechanics.
+/// What a drive is sent at the end of a cycle goes with that cycle's MDT, is valid from the MST of
+/// the next cycle on, and reached at that of the one after it; what it says at an MST is known in
+/// that cycle. So a set position is seen as the actual one two cycles later, with ideal mechanics.
 class SercosDriver : public bus::AxisDriver {
 public:
   SercosDriver(const bus::GroupSetup &setup, std::unique_ptr<Ring> ring);

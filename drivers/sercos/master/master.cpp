@@ -32,8 +32,8 @@ void Master::setOpticalPower(uint8_t percent) {
 void Master::executeStart() {
   answers_.count = 0;
   ring_->cycle(sent_, answers_);
-  const uint8_t answering = delivered_;
-  delivered_ = sent_.mdt && sent_.mdtAddress != kBroadcast ? sent_.mdtAddress : kNoAddress;
+  const uint8_t answering =
+      sent_.mdt && sent_.mdtAddress != kBroadcast ? sent_.mdtAddress : kNoAddress;
   ++waited_;
   judgeMst();
   switch (phase_) {
@@ -146,7 +146,6 @@ void Master::enter(Phase phase) {
   returns_ = 0;
   tries_ = 0;
   other_ = 0;
-  delivered_ = kNoAddress;
   asked_ = nextWanted(0);
   if (phase >= Phase::Two)
     for (size_t i = 0; i < slaves_.size(); ++i)
@@ -250,7 +249,7 @@ void Master::phaseOne(uint8_t answering) {
   const DriveTelegram *one = nullptr;
   if (!isConfigured(answering) && answersOf(answering, one) > 0)
     news_.say("address ", uint32_t{answering}, " answers and is not configured: it is left out");
-  if (other_ > kLastAddress && answering >= kLastAddress && commanded_ > Phase::One)
+  if (other_ >= kLastAddress && answering >= kLastAddress && commanded_ > Phase::One)
     enter(Phase::Two);
 }
 

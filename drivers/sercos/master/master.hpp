@@ -102,10 +102,9 @@ private:
   uint32_t patience_;    ///< For the ring to close, and for ATs after a phase. [cycles]
   uint32_t returns_ = 0; ///< Of the MST in phase 0, one after the other.
   uint32_t mstMisses_ = 0;
-  uint32_t tries_ = 0;    ///< Phase 1: of this drive.
-  size_t asked_ = 0;      ///< Phases 1 and 2: which drive; their number: none any more.
-  uint16_t other_ = 0;    ///< Phase 1, after the drives: the address that is asked.
-  uint8_t delivered_ = 0; ///< Phases 1 and 2: the address that the MDT of the last cycle went to.
+  uint32_t tries_ = 0; ///< Phase 1: of this drive.
+  size_t asked_ = 0;   ///< Phases 1 and 2: which drive; their number: none any more.
+  uint16_t other_ = 0; ///< Phase 1, after the drives: the address that is asked.
   uint8_t light_;
   Phase phase_ = Phase::Zero;
   Phase commanded_ = Phase::Four;

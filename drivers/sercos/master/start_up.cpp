@@ -90,12 +90,12 @@ void StartUp::tell(bus::Message &message, Idn idn) const {
 void StartUp::step(ServiceChannel &channel, bus::Message &message) {
   if (state_ != State::Busy)
     return;
-  if (part_ != Part::Begin && channel.state() == ServiceChannel::State::Busy) {
+  if (part_ != Part::Begin) {
     ++waited_;
-    return;
-  }
-  if (part_ != Part::Begin)
+    if (channel.state() == ServiceChannel::State::Busy)
+      return;
     answered(channel, message);
+  }
   while (state_ == State::Busy && part_ == Part::Begin) {
     if (place_ >= steps_->size()) {
       state_ = State::Done;

@@ -121,8 +121,8 @@ constexpr uint16_t elementBits(Element element) {
 // these 4 bytes), then the values follow; an odd byte at the end is filled up with 0. kEnd belongs
 // to the last word, also when reading: with an earlier one it is "too short", without it after the
 // last one "too long". To leave an element early another one is begun, or an IDN opened.
-// The AT comes before the MDT in a cycle: what answers an MDT is in an AT of the next cycle or
-// later.
+// The AT comes before the MDT in a cycle: what answers an MDT is in the AT after the next MST or in
+// a later one. So there is a step in a cycle at best.
 
 /// State of the data of an IDN: element 1, read. [IEC 61491]
 namespace data_state {

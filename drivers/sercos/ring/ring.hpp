@@ -26,14 +26,16 @@ constexpr void putWord(std::span<uint8_t> bytes, size_t place, uint16_t word) {
   bytes[place + 1] = static_cast<uint8_t>(word >> 8U);
 }
 
-/// What a master sends in a communication cycle.
+/// What a master sends from one MST, without it, to the next one: the MDT of the cycle that ends,
+/// after it has seen that cycle's ATs, and the MST of the cycle that begins.
 struct MasterTelegrams {
   int64_t periodNs = 1'000'000; ///< From the cycle before to this one; more than 0. [ns]
   bool mst = true;              ///< The MST is sent, with
   Phase phase = Phase::Zero;    ///< … this phase.
-  /// The MDT is sent. Phases 1 and 2: to the drive with `mdtAddress`; its data is control word and
-  /// word of the service channel (kHeadBytes). Phases 3 and 4: to all (kBroadcast); each drive's
-  /// record is at data[S-0-0009 − 1], and its length S-0-0010.
+  /// The MDT is sent. It has the form of the phase that the MST of the call before had: devices in
+  /// another phase do not understand it. Phases 1 and 2: to the drive with `mdtAddress`; its data
+  /// is control word and word of the service channel (kHeadBytes). Phases 3 and 4: to all
+  /// (kBroadcast); each drive's record is at data[S-0-0009 − 1], and its length S-0-0010.
   bool mdt = false;
   uint8_t mdtAddress = kBroadcast;
   uint16_t mdtLength = 0; ///< Bytes of `mdtData`, 0 … kMostMdtBytes.
@@ -51,14 +53,14 @@ struct DriveTelegram {
   [[nodiscard]] std::span<const uint8_t> bytes() const { return {data.data(), length}; }
 };
 
-/// What has come back in the same cycle.
+/// What has come back, with the cycle that begins.
 struct RingAnswers {
   bool light = false;        ///< The receiver sees light.
   bool mstReturned = false;  ///< The MST has come back whole.
   bool mstDistorted = false; ///< Something has come back, but not what was sent.
   /// ATs, in the order of their times. In phases 1 and 2 it is that of the drive to which the MDT
-  /// of the last cycle went; several when several have that address. In phases 3 and 4 those of
-  /// all drives that are in that phase. One that is missing was not sent or is lost.
+  /// went; several when several have that address. In phases 3 and 4 those of all drives that are
+  /// in that phase. One that is missing was not sent or is lost.
   size_t count = 0;
   std::array<DriveTelegram, kMostAnswers> telegrams{};
 
@@ -73,8 +75,8 @@ public:
   Ring &operator=(const Ring &) = delete;
   virtual ~Ring() = default;
 
-  /// One communication cycle: the MST, then the ATs, then the MDT. So an AT knows nothing of the
-  /// MDT of the same cycle.
+  /// One communication cycle, seen from where the master computes: between ATs and MDT. First the
+  /// MDT goes, then the MST, then the ATs come, which know the MDT of the same call.
   virtual void cycle(const MasterTelegrams &sent, RingAnswers &answers) noexcept = 0;
 
   /// The brightness of the transmitter, 0 … 100 (0: off).

@@ -59,11 +59,8 @@ void Device::enter(Phase phase) noexcept {
   onPhase(before);
 }
 
-void Device::receiveMst(uint8_t phase) noexcept {
-  if (hasLeft() || occurs(faults_.loseMsts)) {
-    missMst();
-    return;
-  }
+/// What the MST says of the phase; FALSE: it was not where the device looks for it.
+bool Device::followPhase(uint8_t phase) noexcept {
   const auto now = static_cast<uint8_t>(phase_);
   if (phase > static_cast<uint8_t>(Phase::Four))
     raiseInterfaceError(interface_status::kInvalidPhase);
@@ -75,14 +72,20 @@ void Device::receiveMst(uint8_t phase) noexcept {
     raiseInterfaceError(interface_status::kNotReady);
   else if (phase != now)
     enter(static_cast<Phase>(phase));
-  else if (now >= 3) {
-    // Another cycle than agreed: the telegrams are not where they are looked for.
+  else if (now >= 3) { // in another cycle than agreed
     const int64_t agreed = list_.value(kCommunicationCycle) * 1000;
     const int64_t off = periodNs_ > agreed ? periodNs_ - agreed : agreed - periodNs_;
-    if (off > agreed / 4) {
-      missMst();
-      return;
-    }
+    return off <= agreed / 4;
+  }
+  return true;
+}
+
+void Device::receiveMst(uint8_t phase) noexcept {
+  const bool heard = !hasLeft() && !occurs(faults_.loseMsts);
+  waits_ = waits_ && !(heard && phase == 0);
+  if (!heard || (!waits_ && !followPhase(phase))) {
+    missMst();
+    return;
   }
   missedMsts_ = 0;
   runCommands();
@@ -101,6 +104,7 @@ void Device::missMst() noexcept {
 
 void Device::missMdt() noexcept {
   asked_ = false;
+  hadMdt_ = false;
   if (phase_ != Phase::Three && phase_ != Phase::Four)
     return;
   ++list_.at(kMdtErrors).value;
@@ -157,6 +161,7 @@ void Device::receiveMdt(uint8_t address, std::span<const uint8_t> data) noexcept
       return;
     }
     missedMdts_ = 0;
+    hadMdt_ = true;
     receiveRecord(data.subspan(place));
   }
   updateStatus();
@@ -302,7 +307,10 @@ void Device::raiseError(uint16_t bits, uint16_t number, std::string_view text) n
 void Device::raiseInterfaceError(uint16_t bits) noexcept {
   list_.at(kInterfaceStatus).value |= bits;
   raiseError(class1::kCommunication, 0, "communication error, see S-0-0014");
-  if (bits != interface_status::kMode && phase_ != Phase::Zero)
+  if (bits == interface_status::kMode)
+    return;
+  waits_ = true;
+  if (phase_ != Phase::Zero)
     enter(Phase::Zero);
 }
 

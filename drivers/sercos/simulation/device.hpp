@@ -53,7 +53,7 @@ class Device : private ServiceHost {
 public:
   Device(const DeviceSetup &setup, std::vector<IdnRow> rows);
 
-  // ---- what the ring calls, in this order, in each cycle
+  // ---- what the ring calls in each cycle: the MDT of the one that ends, then these in their order
   /// The next cycle begins, so long after the one before. `baudRate` in MBit/s.
   void beginCycle(int64_t periodNs, uint8_t baudRate) noexcept;
   /// The MST is here, with that phase.
@@ -62,7 +62,7 @@ public:
   void missMst() noexcept;
   /// Whether it sends an AT in this cycle, and then which.
   [[nodiscard]] bool transmit(DriveTelegram &telegram) noexcept;
-  /// The MDT of this cycle.
+  /// The MDT.
   void receiveMdt(uint8_t address, std::span<const uint8_t> data) noexcept;
   /// It should have been; in phases 1 and 2 nobody misses one.
   void missMdt() noexcept;
@@ -106,6 +106,8 @@ protected:
   [[nodiscard]] virtual bool canReset() const noexcept { return true; }
   virtual void onReset() noexcept = 0;
 
+  /// The last MDT has come.
+  [[nodiscard]] bool hadMdt() const { return hadMdt_; }
   /// How the command that is under way has ended.
   void endCommand(Idn idn, uint16_t state) noexcept;
   /// Bits of S-0-0011 and what S-0-0129 and S-0-0095 say with them.
@@ -139,6 +141,7 @@ private:
 
   // device.cpp
   void enter(Phase phase) noexcept;
+  [[nodiscard]] bool followPhase(uint8_t phase) noexcept;
   void runCommands() noexcept;
   uint16_t startCommand(IdnEntry &entry) noexcept;
   void writeCommand(IdnEntry &entry) noexcept;
@@ -163,6 +166,8 @@ private:
   bool leaves_ = false; ///< setDisturbed.
   bool mute_ = false;
   bool failPhase3_ = false;
+  bool waits_ = false; ///< It has fallen: the ring has to be in phase 0 first.
+  bool hadMdt_ = false;
   bool asked_ = false;      ///< The last MDT was for it.
   bool readyFor3_ = false;  ///< S-0-0127 has been executed.
   bool readyFor4_ = false;  ///< S-0-0128 has been executed.

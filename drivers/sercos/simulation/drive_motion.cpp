@@ -50,6 +50,7 @@ void SimulatedDrive::rest() noexcept {
   demanded_ = target_ = mechanics_.position();
   demandRest_ = 0;
   velocityDemanded_ = 0;
+  way_ = 0;
   cyclesLeft_ = 0;
   commanded_ = scaling_.toRing(demanded_) + origin_;
 }
@@ -125,6 +126,7 @@ dummy::Demand SimulatedDrive::followPosition(double seconds) noexcept {
   demand.velocityFrom = velocityDemanded_;
   demand.to = cyclesLeft_ > 1 ? demanded_ + (target_ - demanded_) / cyclesLeft_ : target_;
   cyclesLeft_ = std::max<int64_t>(cyclesLeft_ - 1, 0);
+  way_ = demand.to - demand.from;
   demand.velocity = static_cast<double>(demand.to - demand.from) / seconds;
   demanded_ = demand.to;
   velocityDemanded_ = demand.velocity;
@@ -195,6 +197,11 @@ void SimulatedDrive::latch() noexcept {
     return; // on the way to the last one
   ipoSync_ = sync;
   cyclesLeft_ = cycles;
+  if (!hadMdt() && cycles == 1) {
+    target_ = demanded_ + way_;
+    commanded_ = scaling_.toRing(target_) + origin_;
+    return;
+  }
   const bool inverted = (data.value(kPositionPolarity) & kInvertCommand) != 0;
   const int64_t wanted = inverted ? -data.value(kPositionCommand) : data.value(kPositionCommand);
   commanded_ += scaling_.way(commanded_, wanted);

@@ -15,7 +15,7 @@ namespace stride::sercos::simulation {
 /// Its controllers run with the MST: what the MDT of a cycle has brought is valid from the next MST
 /// on, and reached at the one after that, with ideal mechanics to the increment. Feedback is that
 /// of the MST. With S-0-0001 of several S-0-0002 a position is reached in as many cycles, counted
-/// from where the bit IPOSYNC turns.
+/// from where the bit IPOSYNC turns. Without an MDT the position goes on as in the cycle before.
 class SimulatedDrive final : public Device {
 public:
   explicit SimulatedDrive(const DriveSetup &setup);
@@ -119,6 +119,7 @@ private:
   int64_t commanded_ = 0;  ///< Over any number of turns. [ring units]
   int64_t target_ = 0;     ///< [inc]
   int64_t cyclesLeft_ = 0; ///< Until the target is to be reached.
+  int64_t way_ = 0;        ///< Of the last cycle. [inc]
   bool ipoSync_ = false;
   double velocity_ = 0;         ///< [inc/s]
   double torque_ = 0;           ///< [Nm]

@@ -94,9 +94,9 @@ void SimulatedRing::cycle(const MasterTelegrams &sent, RingAnswers &answers) noe
   answers.light = lit > devices_.size();
   answers.mstReturned = answers.light && sent.mst && !lost && !distorted;
   answers.mstDistorted = answers.light && distorted;
+  sendMdt(sent, lit);
   sendMst(sent, lit, lost, distorted);
   collectAts(sent, lit, answers);
-  sendMdt(sent, lit);
 }
 
 } // namespace stride::sercos::simulation

@@ -233,6 +233,8 @@ public:
   size_t allocations = 0; ///< Of this ring itself.
 
   void carry(const MasterTelegrams &sent, RingAnswers &answers) {
+    const uint8_t last = sent.mdt && phase > 0 && phase < 3 ? sent.mdtAddress : uint8_t{0};
+    deliver(sent); // of the cycle that ends
     answers.count = 0;
     phase = static_cast<uint8_t>(sent.phase);
     answers.light = !open;
@@ -241,27 +243,30 @@ public:
     loseMsts -= loseMsts > 0 ? 1 : 0;
     for (ScriptedDrive *drive : drives) {
       drive->phase = phase;
-      const bool speaks = phase >= 3 || (phase > 0 && drive->address() == last_);
+      const bool speaks = phase >= 3 || (phase > 0 && drive->address() == last);
       if (speaks && !drive->silent && !open)
         answers.telegrams[answers.count++] = drive->telegram();
     }
-    last_ = sent.mdt && phase < 3 ? sent.mdtAddress : 0;
+  }
+
+  /// In the form of the phase that there was.
+  void deliver(const MasterTelegrams &sent) {
     if (sent.mdt && phase == 1)
       asked.push_back(sent.mdtAddress);
+    const bool cyclic = phase >= 3;
+    if (!sent.mdt || phase == 0 || cyclic != (sent.mdtAddress == 255))
+      return;
     for (ScriptedDrive *drive : drives) {
-      if (!sent.mdt || (phase < 3 && drive->address() != sent.mdtAddress))
+      if (!cyclic && drive->address() != sent.mdtAddress)
         continue;
-      const size_t from = phase < 3 ? 0 : drive->value(9) - size_t{1};
-      const size_t length = phase < 3 ? 4 : drive->length;
+      const size_t from = cyclic ? drive->value(9) - size_t{1} : 0;
+      const size_t length = cyclic ? drive->length : 4;
       drive->receive(Bytes(sent.mdtData.begin() + static_cast<ptrdiff_t>(from),
                            sent.mdtData.begin() + static_cast<ptrdiff_t>(from + length)));
     }
   }
   void setLight(uint8_t percent) noexcept override { light = percent; }
   void setBaudRate(uint8_t rate) noexcept override { megabits = rate; }
-
-private:
-  uint8_t last_ = 0;
 };
 
 } // namespace stride::sercos::test

@@ -57,7 +57,7 @@ TEST(SercosPower, TakesItsCycles) {
   Operating o(setup);
   o.master.setTarget(3, 777);
   o.master.setControl(3, 0xE000);
-  o.master.cycle(7);
+  o.master.cycle(6);
   EXPECT_EQ(o.ready(), 2U);
   o.master.cycle(1);
   EXPECT_EQ(o.ready(), 3U);
@@ -95,13 +95,28 @@ TEST(SercosPosition, IsReachedAtTheMstAfterTheNext) {
   Operating o;
   o.master.powerOn(3);
   o.master.setTarget(3, 900);
-  o.master.cycle(); // in the MDT
-  EXPECT_EQ(o.master.actual(3), 777);
-  o.master.cycle(); // valid
+  o.master.cycle(); // in the MDT, valid from the MST on
   EXPECT_EQ(o.master.actual(3), 777);
   o.master.cycle(); // reached
   EXPECT_EQ(o.master.actual(3), 900);
   EXPECT_EQ(o.drive.mechanics().position(), 900);
+}
+
+TEST(SercosPosition, GoesOnWithoutAnMdt) {
+  Operating o;
+  o.master.powerOn(3);
+  int32_t target = 777;
+  for (int i = 0; i < 10; ++i) {
+    o.master.setTarget(3, target += 15);
+    o.master.cycle();
+  }
+  const int32_t before = o.master.actual(3);
+  o.drive.faults().loseMdts = 1;
+  for (int i = 1; i <= 6; ++i) {
+    o.master.setTarget(3, target += 15);
+    o.master.cycle();
+    EXPECT_EQ(o.master.actual(3), before + 15 * i) << "nothing is seen of the loss";
+  }
 }
 
 TEST(SercosPosition, OverTheEndOf32Bits) {
@@ -202,7 +217,7 @@ TEST(SercosPosition, FineInterpolationOverSeveralCycles) {
   master.powerOn(3);
   master.setTarget(3, 777 + 400);
   master.setControl(3, 0xE400); // IPOSYNC turns
-  master.cycle(2);
+  master.cycle();
   for (const int32_t way : {100, 200, 300, 400, 400}) {
     master.cycle();
     EXPECT_EQ(master.actual(3), 777 + way);
@@ -219,7 +234,7 @@ TEST(SercosPosition, HaltAndStopUseTheirRamp) {
     o.master.cycle();
   }
   o.master.setControl(3, 0xC000); // halt: 10000²/2/10⁶ = 50 increments
-  o.master.cycle(2);
+  o.master.cycle();
   const int32_t begun = o.master.actual(3);
   o.master.cycle(10);
   EXPECT_EQ(o.master.actual(3), begun + 50);
@@ -235,7 +250,7 @@ TEST(SercosPosition, HaltAndStopUseTheirRamp) {
     o.master.cycle();
   }
   o.master.setControl(3, 0x6000); // off, still enabled
-  o.master.cycle(2);
+  o.master.cycle();
   const int32_t left = o.master.actual(3);
   EXPECT_EQ(o.ready(), 3U) << "until it stands";
   o.master.cycle(10);

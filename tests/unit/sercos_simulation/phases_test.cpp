@@ -29,8 +29,6 @@ TEST(SercosPhases, AnswersOnlyWhenAsked) {
   EXPECT_EQ(scene.master.answers.count, 0U);
   scene.master.asked = 3;
   scene.master.cycle();
-  EXPECT_EQ(scene.master.answers.count, 0U) << "the AT comes before the MDT";
-  scene.master.cycle();
   ASSERT_EQ(scene.master.answers.count, 1U);
   EXPECT_EQ(scene.master.answers.telegrams[0].address, 3);
   EXPECT_EQ(scene.master.answers.telegrams[0].length, 4);

@@ -56,7 +56,7 @@ TEST(SercosRandom, TorqueIsNeverFree) {
     master.toPhase4();
     master.setTarget(3, 777);
     bool before = false;
-    uint16_t word = 0;    // in the MDT of the last cycle
+    uint16_t word = 0;    // in the MDT of this cycle
     uint16_t earlier = 0; // in that of the cycle before
     bool error = false;
     for (int i = 0; i < 600; ++i) {
@@ -68,7 +68,8 @@ TEST(SercosRandom, TorqueIsNeverFree) {
         scene.drive.fail(static_cast<uint16_t>(1 + random() % 100));
       if (random() % 60 == 0 && error)
         master.command(3, 99);
-      const uint16_t sentBefore = master.records[3].control;
+      earlier = word;
+      word = master.records[3].control;
       master.cycle();
       const bool now = scene.drive.hasTorque();
       if (now && !before) {
@@ -79,8 +80,6 @@ TEST(SercosRandom, TorqueIsNeverFree) {
       powered += now ? 1U : 0U;
       before = now;
       error = scene.drive.hasError();
-      earlier = word;
-      word = sentBefore;
     }
   }
   EXPECT_GT(powered, 1000U);

@@ -10,18 +10,18 @@ struct Channel : DriveScene {
   }
 };
 
-TEST(SercosService, AStepTakesACycleThereAndOneBack) {
+TEST(SercosService, AStepTakesACycle) {
   Channel c;
   const Answer answer = c.master.open(3, 95);
   EXPECT_EQ(answer.error, 0);
-  EXPECT_EQ(answer.cycles, 2U);
-  // S-0-0095: 2 cycles to open, 2 for each of two words before it, 2 for each two characters.
+  EXPECT_EQ(answer.cycles, 1U);
+  // S-0-0095: a cycle to open, one for each of two words before it, one for each two characters.
   const Answer text = c.master.read(3, 95, 7, 0);
   EXPECT_EQ(text.text(), "ready");
-  EXPECT_EQ(text.cycles, 2U + 4U + 6U);
+  EXPECT_EQ(text.cycles, 1U + 2U + 3U);
   const Answer name = c.master.read(3, 47, 2, 0);
   EXPECT_EQ(name.text(), "Position command value");
-  EXPECT_EQ(name.cycles, 2U + 4U + 22U);
+  EXPECT_EQ(name.cycles, 1U + 2U + 11U);
 }
 
 TEST(SercosService, Elements) {
@@ -133,7 +133,7 @@ TEST(SercosService, Busy) {
   Channel c;
   for (const unsigned busy : {1U, 9U, 10U, 11U, 25U}) {
     c.drive.faults().busyCycles = busy;
-    EXPECT_EQ(c.master.open(3, 95).cycles, 2U + busy);
+    EXPECT_EQ(c.master.open(3, 95).cycles, 1U + busy);
   }
   c.drive.faults().busyCycles = 5;
   c.master.asked = 3;
@@ -195,7 +195,7 @@ TEST(SercosService, GoesOnOverTheChangeOfPhases) {
   DriveScene scene;
   scene.master.toPhase3();
   EXPECT_EQ(scene.master.read(3, 2).number(), 2000);
-  EXPECT_EQ(scene.master.open(3, 47).cycles, 2U);
+  EXPECT_EQ(scene.master.open(3, 47).cycles, 1U);
   scene.master.toPhase2();
   EXPECT_EQ(scene.master.step(3, 7, false, true, 0).error, 0x0001) << "closed";
 }

@@ -25,10 +25,10 @@ TEST(SercosMotion, PositionsToTheIncrement) {
       sent[i] = all.status(i).position;
     for (n = 0; n < 1500; ++n) {
       all.cycle();
-      // It goes with the MDT of the next cycle, is valid from the MST after that on, and reached at
-      // the one after that.
+      // It goes with the MDT of its cycle, is valid from the next MST on, and reached at the one
+      // after that.
       for (size_t i = 0; i < 4 && n > 10; ++i)
-        ASSERT_EQ(all.status(i).position, history[i][n - 3]) << i << ' ' << n << ' ' << rotary;
+        ASSERT_EQ(all.status(i).position, history[i][n - 2]) << i << ' ' << n << ' ' << rotary;
     }
   }
 }
@@ -173,9 +173,9 @@ TEST(SercosMotion, ParametersMeanwhile) {
     all.cycle();
   EXPECT_EQ(answer.result, bus::ParameterAnswer::Result::Done);
   EXPECT_EQ(answer.value, 10'000'000);
-  // Open, attribute (2 words), value (2 words): each of them two cycles.
-  EXPECT_GE(cycles, 10);
-  EXPECT_LE(cycles, 14);
+  // Open, attribute (2 words), value (2 words): each of them a cycle.
+  EXPECT_GE(cycles, 5);
+  EXPECT_LE(cycles, 8);
 }
 
 } // namespace
