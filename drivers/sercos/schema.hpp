@@ -73,7 +73,7 @@ inline constexpr std::array kDrive = {
         .says("for a procedure command of the start-up, S-0-0127 or S-0-0128"),
     duration("power_timeout")
         .defaultsTo(2)
-        .says("for the drive to get or lose torque; after it the drive has error 1"),
+        .says("for the drive to get or lose torque; after it the drive has error 65535"),
     duration("mode_timeout").defaultsTo(0.5).says("for a change of the operation mode"),
 };
 
