@@ -104,7 +104,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   constexpr size_t kCycle = 11; // flags, address, length, control word, word, cyclic data
   for (; size >= kCycle; data += kCycle, size -= kCycle) {
     MasterTelegrams &sent = scene.sent;
-    const uint16_t valid = scene.drive.controlWord();
     sent.mst = (data[0] & 0x08U) == 0;
     sent.mdt = (data[0] & 0x10U) == 0;
     sent.phase = static_cast<Phase>(data[0] & 7U);
@@ -114,6 +113,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (size_t i = 0; i < 8; ++i)
       sent.mdtData[i] = data[3 + i];
     scene.cycle();
+    const uint16_t valid = scene.drive.controlWord(); // of this cycle's MDT
     const bool now = scene.drive.hasTorque();
     if (now && !before && ((valid & control::kOn) == 0 || (valid & control::kEnable) == 0))
       std::abort();

@@ -130,6 +130,7 @@ TEST(SercosRunUp, TooManyForTheirCycle) {
 class Trace {
 public:
   void take(const MasterTelegrams &sent, const RingAnswers &answers) {
+    mdt(sent); // of the cycle that ends
     ++cycle_;
     if (sent.phase != phase_) {
       phase_ = sent.phase;
@@ -137,22 +138,24 @@ public:
     }
     for (const DriveTelegram &at : answers.ats())
       answer(at);
-    if (!sent.mdt)
-      return;
-    if (sent.phase == Phase::One && sent.mdtAddress <= 5)
-      line("MDT to %u", sent.mdtAddress);
-    if (sent.phase == Phase::Two)
-      step(sent.mdtAddress, wordAt(sent.mdtData, 0), wordAt(sent.mdtData, 2));
-    if (sent.phase >= Phase::Three)
-      for (size_t i = 0; i < 4; ++i) {
-        const size_t place = i * (sent.mdtLength / 4U);
-        step(static_cast<uint8_t>(i + 1), wordAt(sent.mdtData, place),
-             wordAt(sent.mdtData, place + 2));
-      }
   }
   [[nodiscard]] std::string text() const { return text_.str(); }
 
 private:
+  void mdt(const MasterTelegrams &sent) {
+    const bool all = sent.mdtAddress == kBroadcast;
+    if (!sent.mdt || all != (phase_ >= Phase::Three) || phase_ == Phase::Zero)
+      return; // nobody understands it
+    if (phase_ == Phase::One && sent.mdtAddress <= 5)
+      line("MDT to %u", sent.mdtAddress);
+    if (phase_ == Phase::Two)
+      step(sent.mdtAddress, wordAt(sent.mdtData, 0), wordAt(sent.mdtData, 2));
+    for (size_t i = 0; all && i < 4; ++i) {
+      const size_t place = i * (sent.mdtLength / 4U);
+      step(static_cast<uint8_t>(i + 1), wordAt(sent.mdtData, place),
+           wordAt(sent.mdtData, place + 2));
+    }
+  }
   template <class... Args> void line(const char *format, Args... args) {
     std::array<char, 120> buffer{};
     std::snprintf(buffer.data(), buffer.size(), format, args...);
@@ -182,7 +185,7 @@ private:
   std::array<uint32_t, 256> answers_{};
   std::array<uint32_t, 256> steps_{};
   size_t cycle_ = 0;
-  Phase phase_ = Phase::Four;
+  Phase phase_ = Phase::Zero;
 };
 
 /// The configuration of the manual's 11.2: 3 ms, 2 MBit/s, four drives.
