@@ -170,28 +170,13 @@ void StartUp::asked(ServiceChannel &channel, bus::Message &message) {
     next();
     break;
   case StartOp::CheckLength:
-    if (!channel.attribute().list && channel.attribute().bytes == step.bytes) {
-      next();
-      break;
-    }
-    tell(message, step.value.idn);
-    message.append(": it has another length than the ");
-    message.append(uint32_t{step.bytes});
-    message.append(" bytes that are planned for each cycle");
-    fail();
+    checkLength(channel, message);
     break;
   case StartOp::ProfileIdn:
     next();
     break;
   case StartOp::ProfileBits:
-    if ((static_cast<uint64_t>(channel.number()) & step.mask) ==
-        static_cast<uint64_t>(step.value.numbers[0])) {
-      next();
-      break;
-    }
-    message.set("the Pack Profile is not met: ", IdnName(step.value.idn), " is ",
-                WordText(static_cast<uint16_t>(channel.number())), ", where ", step.text);
-    fail();
+    checkBits(channel, message);
     break;
   case StartOp::WriteTime:
     scratch_.idn = step.value.idn;
@@ -210,6 +195,31 @@ void StartUp::asked(ServiceChannel &channel, bus::Message &message) {
     write(channel, step.value, message);
     break;
   }
+}
+
+void StartUp::checkLength(const ServiceChannel &channel, bus::Message &message) {
+  const StartStep &step = now();
+  if (!channel.attribute().list && channel.attribute().bytes == step.bytes) {
+    next();
+    return;
+  }
+  tell(message, step.value.idn);
+  message.append(": it has another length than the ");
+  message.append(uint32_t{step.bytes});
+  message.append(" bytes that are planned for each cycle");
+  fail();
+}
+
+void StartUp::checkBits(const ServiceChannel &channel, bus::Message &message) {
+  const StartStep &step = now();
+  if ((static_cast<uint64_t>(channel.number()) & step.mask) ==
+      static_cast<uint64_t>(step.value.numbers[0])) {
+    next();
+    return;
+  }
+  message.set("the Pack Profile is not met: ", IdnName(step.value.idn), " is ",
+              WordText(static_cast<uint16_t>(channel.number())), ", where ", step.text);
+  fail();
 }
 
 int64_t StartUp::timeOf(Idn idn) const {

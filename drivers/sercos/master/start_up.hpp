@@ -56,6 +56,8 @@ private:
   void next();
   void ask(ServiceChannel &channel);
   void answered(ServiceChannel &channel, bus::Message &message);
+  void checkLength(const ServiceChannel &channel, bus::Message &message);
+  void checkBits(const ServiceChannel &channel, bus::Message &message);
   void asked(ServiceChannel &channel, bus::Message &message);
   void write(ServiceChannel &channel, const IdnValue &value, bus::Message &message);
   void written(ServiceChannel &channel, bus::Message &message);
