@@ -10,7 +10,18 @@ class SimulatedSercosDriver final : public SercosDriver {
 public:
   SimulatedSercosDriver(const bus::GroupSetup &setup, SimulatedNetwork &network,
                         std::unique_ptr<Ring> ring)
-      : SercosDriver(setup, std::move(ring)), network_(network) {}
+      : SercosDriver(setup, std::move(ring)), network_(network),
+        isReal_(setup.kind == bus::BusKind::Real) {}
+
+  /// Nobody shall wait for a motor to turn.
+  void attach(bus::DriverHost &host) override {
+    SercosDriver::attach(host);
+    if (!isReal_)
+      return;
+    bus::Message text;
+    text.set("its Sercos ring is simulated, there is no interface to a real one");
+    host.say(text);
+  }
 
   void executeStart() override {
     SercosDriver::executeStart();
@@ -21,6 +32,7 @@ public:
 
 private:
   SimulatedNetwork &network_; ///< The driver's ring.
+  bool isReal_;               ///< The run is; the ring never.
 };
 
 } // namespace

@@ -139,6 +139,10 @@ private:
       info_ = blocks.count(info) == 0 ? 0x1001 : 0;
       return;
     }
+    if (element == 0 || blocks.count(open_) == 0) {
+      answer(1, true); // it is not open
+      return;
+    }
     if (element != element_) {
       element_ = element;
       place_ = 0;
@@ -187,6 +191,10 @@ private:
   void end(Block &block) {
     element_ = 0;
     Bytes data = buffer_;
+    if (block.isList() ? data.size() < 4 : data.size() != block.data.size()) {
+      answer(0x7002, true);
+      return;
+    }
     if (block.isList()) {
       data.erase(data.begin(), data.begin() + 4);
       data.resize(static_cast<size_t>(buffer_[0] | buffer_[1] << 8));
@@ -261,6 +269,8 @@ public:
         continue;
       const size_t from = cyclic ? drive->value(9) - size_t{1} : 0;
       const size_t length = cyclic ? drive->length : 4;
+      if (from + length > sent.mdtData.size())
+        continue;
       drive->receive(Bytes(sent.mdtData.begin() + static_cast<ptrdiff_t>(from),
                            sent.mdtData.begin() + static_cast<ptrdiff_t>(from + length)));
     }
