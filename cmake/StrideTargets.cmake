@@ -214,7 +214,7 @@ set(STRIDE_APPLICATION_ARCHIVES stride_stdlib stride_native stride_runtime_iec)
 set(STRIDE_HOST_ARCHIVES stride_static_main stride_host_main stride_runtime_host stride_runtime_monitor
     stride_runtime_script stride_drivers_io stride_runtime_io stride_runtime_system stride_runtime_task
     stride_drivers stride_driver_can stride_driver_can_log stride_can_master stride_driver_can_simulation
-    stride_can_socket stride_can_plan stride_driver_dummy stride_runtime_bus stride_runtime_axis stride_runtime_app stride_common
+    stride_can_socket stride_can_plan stride_driver_sercos stride_sercos_master stride_sercos_plan stride_driver_sercos_simulation stride_sercos_protocol stride_driver_dummy stride_runtime_bus stride_runtime_axis stride_runtime_app stride_common
     stride_fmt)
 
 # stride_stdlib_archive(<generated file>...): the ST bodies of the standard library.

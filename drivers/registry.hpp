@@ -4,14 +4,15 @@
 
 #include "drivers/can/schema.hpp"
 #include "drivers/dummy/schema.hpp"
+#include "drivers/sercos/schema.hpp"
 
 #include <array>
 #include <string_view>
 
 /// Every driver by its folder, which is its namespace, too: it has a `kSchema` (schema.hpp),
-/// `makeDriver` and `driveDataLayout` (axis_drivers.hpp). A new driver: a name here, and the
-/// include of its schema above.
-#define STRIDE_AXIS_DRIVERS(DRIVER) DRIVER(dummy) DRIVER(can)
+/// `makeDriver`, `driveDataLayout` and `groupDataLayout` (axis_drivers.hpp). A new driver: a name
+/// here, and the include of its schema above.
+#define STRIDE_AXIS_DRIVERS(DRIVER) DRIVER(dummy) DRIVER(can) DRIVER(sercos)
 
 namespace stride::drivers {
 

@@ -356,4 +356,9 @@ const stride::bus::SharedData *sharedDataOf(const CheckedSection &drive, std::st
   return nullptr;
 }
 
+const stride::bus::SharedData *sharedGroupDataOf(std::string_view driver) {
+  const DriverSchema *known = stride::drivers::findSchema(driver);
+  return known != nullptr && !known->groupData.type.empty() ? &known->groupData : nullptr;
+}
+
 } // namespace stc

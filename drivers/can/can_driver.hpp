@@ -73,6 +73,8 @@ std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);
 
 /// Of DUMMY_DRIVE_SIM, as this runtime knows it.
 uint64_t driveDataLayout();
+/// There is none.
+uint64_t groupDataLayout();
 
 } // namespace stride::can
 

@@ -262,6 +262,9 @@ public:
   /// there is none. Called before the first cycle and whenever the application has moved.
   virtual void bindData(size_t /*drive*/, void * /*data*/) {}
 
+  /// The same for the structure about the whole group (DriverSchema::groupData).
+  virtual void bindGroupData(void * /*data*/) {}
+
   /// Whom it may talk to, before the first cycle; he lives as long as the driver is called.
   virtual void attach(DriverHost & /*host*/) {}
 

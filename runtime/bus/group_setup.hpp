@@ -65,6 +65,7 @@ struct GroupSetup {
   std::string interfaceType;
   BusKind kind = BusKind::Simulated;
   BusRecording recording;  ///< As far as the driver can.
+  std::string files;       ///< The folder for the program's files.
   double cycleSeconds = 0; ///< Of the group's task.
   SetupParameters busParameters;
   SetupParameters parameters;

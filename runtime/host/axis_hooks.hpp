@@ -18,13 +18,15 @@ app::RuntimeLayouts runtimeLayouts();
 
 /// One hook per axis group of the application, added to the group's task, on buses of that kind. Of
 /// several groups each has a file of its own: `bus.log` is `bus.GROUP.log`.
+/// `files`: the folder for the program's files; empty: the application's own.
 /// The hooks must live as long as the tasks. What is measured passes `inputs`. Throws app::Error
 /// for an unknown driver, and when the application was built with another AXIS_REF or
 /// SMC_AXISGROUP_REF than this program.
 std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
                                                             task::TaskSet &tasks, InputPort &inputs,
                                                             bus::BusKind buses,
-                                                            const bus::BusRecording &recording);
+                                                            const bus::BusRecording &recording,
+                                                            const std::string &files = {});
 
 /// One line about each drive that is in error stop, to be shown at the end of a run; `hooks` are
 /// those of addAxisGroups, among others.

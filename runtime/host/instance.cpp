@@ -38,7 +38,7 @@ void Instance::initialise() {
   for (std::unique_ptr<task::CycleHook> &hook : addIoDevices(*application_, tasks_, *inputs_))
     hooks_.push_back(std::move(hook));
   for (std::unique_ptr<task::CycleHook> &hook :
-       addAxisGroups(*application_, tasks_, *inputs_, buses_, recording_))
+       addAxisGroups(*application_, tasks_, *inputs_, buses_, recording_, filesFolder_))
     hooks_.push_back(std::move(hook));
 }
 

@@ -3,6 +3,7 @@
 #include "compiler/semantics/builtins/internal.hpp"
 
 #include "compiler/semantics/builtins/builtin_calls.hpp"
+#include "compiler/semantics/config/config.hpp"
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"

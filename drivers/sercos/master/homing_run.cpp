@@ -1,0 +1,78 @@
+#include "drivers/sercos/master/homing_run.hpp"
+
+#include "drivers/sercos/protocol/words.hpp"
+
+namespace stride::sercos {
+
+void HomingRun::step(bool wanted, bool able) {
+  if (!wanted) {
+    if (step_ == Step::Starting || step_ == Step::Running)
+      step_ = Step::Cancelling;
+    else if (step_ != Step::Cancelling && step_ != Step::Ending && step_ != Step::Failing)
+      step_ = Step::Idle;
+    return;
+  }
+  if (step_ == Step::Idle)
+    step_ = able ? Step::Starting : Step::Failed;
+  else if (!able && (step_ == Step::Starting || step_ == Step::Running))
+    step_ = Step::Failing;
+}
+
+ServiceWish HomingRun::wish() const {
+  using Kind = ServiceWish::Kind;
+  switch (step_) {
+  case Step::Starting:
+    return {Kind::Write, idns::kDriveHoming, command::kStart};
+  case Step::Running:
+    return {Kind::State, idns::kDriveHoming};
+  case Step::Ending:
+  case Step::Cancelling:
+  case Step::Failing:
+    return {Kind::Write, idns::kDriveHoming, command::kCancel};
+  case Step::Reference:
+    return {Kind::Read, idns::kReferenceDistance1};
+  case Step::Offset:
+    return {Kind::Read, idns::kReferenceOffset1};
+  default:
+    return {};
+  }
+}
+
+void HomingRun::answered(const ServiceWish &wish, const ServiceAnswer &answer) {
+  if (wish != this->wish()) // it has gone on meanwhile
+    return;
+  switch (step_) {
+  case Step::Starting:
+    step_ = answer.done ? Step::Running : Step::Failed;
+    break;
+  case Step::Running: {
+    const auto state = static_cast<uint16_t>(answer.value & data_state::kCommandMask);
+    if (!answer.done || state == data_state::kFailed)
+      step_ = Step::Failing;
+    else if (state == data_state::kDone)
+      step_ = Step::Reference;
+    break;
+  }
+  case Step::Reference:
+    reference_ = answer.done ? answer.value : 0;
+    step_ = Step::Offset;
+    break;
+  case Step::Offset: // drives may lack it
+    offset_ = answer.done ? answer.value : 0;
+    step_ = Step::Ending;
+    break;
+  case Step::Ending:
+    step_ = answer.done ? Step::Found : Step::Failed;
+    break;
+  case Step::Failing:
+    step_ = Step::Failed;
+    break;
+  case Step::Cancelling:
+    step_ = Step::Idle;
+    break;
+  default:
+    break;
+  }
+}
+
+} // namespace stride::sercos

@@ -1,0 +1,23 @@
+// What the PLC configuration says, for the master.
+#ifndef STRIDE_DRIVERS_SERCOS_SERCOS_SETUP_HPP
+#define STRIDE_DRIVERS_SERCOS_SERCOS_SETUP_HPP
+
+#include "drivers/sercos/master/master.hpp"
+#include "runtime/bus/group_setup.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stride::sercos {
+
+struct SercosSetup {
+  MasterConfig master;
+  std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
+};
+
+/// Reads the drives' parameter files, too.
+SercosSetup sercosSetup(const bus::GroupSetup &setup);
+
+} // namespace stride::sercos
+
+#endif
