@@ -25,6 +25,7 @@ public:
   void executeEnd() override;
   bus::StartUp init(size_t drive, uint16_t &progress, bus::Message &message) override;
   void reset(size_t drive) override;
+  void resetOthers() override;
   [[nodiscard]] bus::DriveStatus status(size_t drive) const override;
   void command(size_t drive, const bus::DriveCommand &command) override;
   [[nodiscard]] uint8_t controllerModes(size_t drive) const override;
@@ -49,7 +50,6 @@ private:
   CanDriver(const CanSetup &setup, std::unique_ptr<Port> port);
 
   void startOthers();
-  void resetOthers();
   void stop();
 
   Master master_;
@@ -63,7 +63,7 @@ private:
   std::vector<uint32_t> standing_; ///< Of each drive: cycles without a demand to move.
   std::vector<CanSetup::EncoderSource> encoders_;
   size_t drives_;
-  bool syncDevice_ = false;        ///< The last node gives SYNC.
+  bool hasIos_ = false;
   std::vector<bool> othersFailed_; ///< Of each node after those of the drives.
   bool stopped_ = false;
 };

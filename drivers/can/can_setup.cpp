@@ -84,6 +84,20 @@ void addEncoders(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &
   }
 }
 
+void addIos(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &result) {
+  for (size_t i = 0; i < setup.ios.size(); ++i) {
+    const IoPlan &io = plan.ios[i];
+    if (!io.fault.empty())
+      continue;
+    NodeConfig node = busConfig(setup, setup.ios[i].parameters);
+    node.kind = NodeConfig::Kind::Io;
+    node.plan = io.plan;
+    node.parameters = io.startup;
+    node.io = {setup.ios[i].exchange, io.rpdoAt, io.tpdoAt};
+    result.master.nodes.push_back(std::move(node));
+  }
+}
+
 /// A place in the list of nodes that nobody answers at.
 NodeConfig nobody(const NodeConfig &like) {
   NodeConfig node = like;
@@ -108,6 +122,8 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
     master.nodes.push_back(std::move(node));
   }
   addEncoders(setup, plan, result);
+  addIos(setup, plan, result);
+  result.hasIos = !setup.ios.empty();
   if (result.hasSyncDevice) {
     NodeConfig device;
     device.kind = NodeConfig::Kind::SyncDevice;

@@ -24,6 +24,7 @@ struct CanSetup {
     std::string fault; ///< Why it cannot be read; empty: nothing.
   };
   std::vector<EncoderSource> encoders;
+  bool hasIos = false;        ///< Nodes after those of the encoders.
   bool hasSyncDevice = false; ///< It is the last node.
 };
 

@@ -223,6 +223,9 @@ public:
   /// The drive is switched off and left alone; the next init begins its start-up anew.
   virtual void reset(size_t drive) = 0;
 
+  /// The group begins anew: so does what is at the bus besides its drives.
+  virtual void resetOthers() {}
+
   /// The state taken over by the last executeStart.
   [[nodiscard]] virtual DriveStatus status(size_t drive) const = 0;
 

@@ -4,9 +4,11 @@
 
 #include "runtime/bus/driver_schema.hpp"
 #include "runtime/bus/plc_schema.hpp"
+#include "runtime/common/io_exchange.hpp"
 #include "runtime/common/setup_parameters.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +28,18 @@ struct EncoderSetup {
   std::string name;
   uint32_t id = 0; ///< wEncoderId.
   SetupParameters parameters;
+};
+
+/// An I/O device that is a node of the bus (IoSchema::bus).
+struct IoSetup {
+  std::string name;
+  uint32_t inputBytes = 0;
+  uint32_t outputBytes = 0;
+  std::vector<uint8_t> safeOutputs; ///< Of all its outputs; none: zeros.
+  SetupParameters parameters;
+  /// Where its bytes are exchanged; null: nobody wants them.
+  std::shared_ptr<common::IoExchange> exchange;
+  size_t device = 0; ///< Its place in the configuration.
 };
 
 /// What a driver's bus is made of.
@@ -70,6 +84,7 @@ struct GroupSetup {
   SetupParameters parameters;
   std::vector<DriveSetup> drives;
   std::vector<EncoderSetup> encoders;
+  std::vector<IoSetup> ios;
   const DriverSchema *schema;
 };
 

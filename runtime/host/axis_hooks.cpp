@@ -337,7 +337,8 @@ app::RuntimeLayouts runtimeLayouts() {
 std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
                                                             task::TaskSet &tasks, InputPort &inputs,
                                                             bus::BusKind buses,
-                                                            const bus::BusRecording &recording) {
+                                                            const bus::BusRecording &recording,
+                                                            const IoExchanges &exchanges) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
@@ -348,11 +349,26 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
     bus::GroupSetup setup = groupSetup(app, group, *driver.schema);
     setup.kind = buses;
     setup.recording = {ownFile(recording.log, app, group), ownFile(recording.replay, app, group)};
+    for (bus::IoSetup &io : setup.ios)
+      io.exchange = exchanges[io.device];
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(), driver.make(setup),
                                                     setup.cycleSeconds, inputs, tasks, errors));
   }
+  return hooks;
+}
+
+std::vector<std::unique_ptr<task::CycleHook>> addDevices(const app::Application &application,
+                                                         task::TaskSet &tasks, InputPort &inputs,
+                                                         bus::BusKind buses,
+                                                         const bus::BusRecording &recording) {
+  const IoExchanges exchanges = ioExchanges(application.description());
+  auto hooks = addIoDevices(application, tasks, inputs, IoPlace::Alone, exchanges);
+  for (auto &hook : addAxisGroups(application, tasks, inputs, buses, recording, exchanges))
+    hooks.push_back(std::move(hook));
+  for (auto &hook : addIoDevices(application, tasks, inputs, IoPlace::OnBus, exchanges))
+    hooks.push_back(std::move(hook));
   return hooks;
 }
 

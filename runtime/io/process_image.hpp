@@ -76,6 +76,7 @@ private:
     uint32_t imageByte;
     uint32_t deviceByte;
     uint32_t count;
+    bool sensed = false; ///< What is in the image is what the device gave, or somebody since then.
   };
   std::vector<Part> partsIn(const StrideAppV1 &app) const;
   BYTE *image(const Part &part) const;

@@ -37,6 +37,9 @@ public:
   void heartbeat(const Frame &frame) { supervision_.received(frame); }
   void emcy(const Frame &frame, News &news);
 
+  /// An I/O device: lets those who use its bytes know whether it works.
+  void showIo() noexcept;
+
   /// Before the frames of a cycle …
   void beginReceive();
   /// … and after them: judges what has come. `syncs`: that there have been since the last time.
@@ -97,6 +100,9 @@ private:
   void watch(News &news);
   void watchDrive(News &news);
   [[nodiscard]] bool isDrive() const { return config_.kind == NodeConfig::Kind::Drive; }
+  [[nodiscard]] bool isIo() const { return config_.kind == NodeConfig::Kind::Io; }
+  bool takeOver(size_t place, const Frame &frame);
+  [[nodiscard]] Frame rpdoFrame(size_t place) const;
   void countPdos(uint32_t syncs);
   void started(News &news);
   void serveSdo(News &news);

@@ -18,9 +18,10 @@ struct ProfileRow {
   std::string_view number; ///< … as 1000h shows it.
   std::string_view text;
 };
-constexpr std::array<ProfileRow, 2> kProfiles = {
+constexpr std::array<ProfileRow, 3> kProfiles = {
     {{NodeConfig::Kind::Drive, 402, "0192", " is no drive of CiA 402"},
-     {NodeConfig::Kind::Encoder, 406, "0196", " is no encoder of CiA 406"}}};
+     {NodeConfig::Kind::Encoder, 406, "0196", " is no encoder of CiA 406"},
+     {NodeConfig::Kind::Io, 401, "0191", " is no I/O device of CiA 401"}}};
 const ProfileRow &profileOf(NodeConfig::Kind kind) {
   return *std::find_if(kProfiles.begin(), kProfiles.end() - 1,
                        [kind](const ProfileRow &row) { return row.kind == kind; });
@@ -63,6 +64,13 @@ Manner mannerOf(StartOp op) { return kOps[static_cast<size_t>(op)].manner; }
 constexpr std::array<NmtCommand, 3> kResets = {NmtCommand::ResetCommunication,
                                                NmtCommand::ResetNode, NmtCommand::PreOperational};
 
+/// What an output of an I/O device becomes without a master.
+bool isErrorValue(Object object) {
+  constexpr std::array kOfOutputs = {object::kOutputErrorMode, object::kOutputErrorValue,
+                                     object::kAnalogErrorMode, object::kAnalogErrorValue};
+  return std::find(kOfOutputs.begin(), kOfOutputs.end(), object.index) != kOfOutputs.end();
+}
+
 uint32_t numberOf(std::span<const uint8_t> bytes) {
   uint32_t value = 0;
   for (size_t i = 0; i < bytes.size(); ++i)
@@ -83,6 +91,7 @@ void StartUp::begin() {
   stampFits_ = false;
   lacksConsumer_ = false;
   lacksHeartbeat_ = false;
+  lacksErrorValues_ = false;
 }
 
 void StartUp::go(size_t place) {
@@ -254,6 +263,7 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
   if (object.optional && !parts.sdo.timedOut() && isMissing(code)) {
     lacksConsumer_ = lacksConsumer_ || now().op == StartOp::WriteConsumer;
     lacksHeartbeat_ = lacksHeartbeat_ || object.object == Object{object::kProducerHeartbeat, 0};
+    lacksErrorValues_ = lacksErrorValues_ || isErrorValue(object.object);
     noRemote_ = now().op == StartOp::NoRemote ? 0 : noRemote_;
     return Outcome::Next;
   }

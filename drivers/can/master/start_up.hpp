@@ -74,6 +74,8 @@ public:
   /// It has no 1016h, no 1017h.
   [[nodiscard]] bool lacksConsumer() const { return lacksConsumer_; }
   [[nodiscard]] bool lacksHeartbeat() const { return lacksHeartbeat_; }
+  /// An I/O device without 6206h, 6207h, 6443h or 6444h.
+  [[nodiscard]] bool lacksErrorValues() const { return lacksErrorValues_; }
   [[nodiscard]] const std::vector<StartStep> &steps() const { return steps_; }
 
 private:
@@ -112,6 +114,7 @@ private:
   bool stampFits_ = false;
   bool lacksConsumer_ = false;
   bool lacksHeartbeat_ = false;
+  bool lacksErrorValues_ = false;
 };
 
 } // namespace stride::can

@@ -23,6 +23,9 @@ std::vector<KnownDrive> knownDrives(const std::string &application) {
     for (size_t i = 0; i < plan.drives.size(); ++i)
       if (plan.faults[i].empty())
         known.push_back({group.drives[i].name, plan.drives[i].plan});
+    for (size_t i = 0; i < plan.ios.size(); ++i)
+      if (plan.ios[i].fault.empty())
+        known.push_back({group.ios[i].name, plan.ios[i].plan});
     for (size_t i = 0; i < plan.encoders.size(); ++i)
       if (plan.encoders[i].plan.node != 0)
         known.push_back({group.encoders[i].name, plan.encoders[i].plan});
