@@ -97,7 +97,15 @@ struct AxisGroupConfig {
   std::vector<ConfigParameter> parameters;
   std::vector<DriveConfig> drives;
   std::vector<EncoderConfig> encoders;
+  /// The variable that driver and program share about it; null: there is none.
+  const stride::bus::SharedData *shared = nullptr;
 };
+
+/// The name of AxisGroupConfig::shared; empty: there is none.
+[[nodiscard]] inline std::string sharedVariable(const AxisGroupConfig &group) {
+  return group.shared != nullptr ? group.name.text + std::string(group.shared->suffix)
+                                 : std::string();
+}
 
 /// A value for an input of a block, which its key names.
 struct InputValue {

@@ -384,6 +384,9 @@ private:
       fields.emplace_back("wDriveCount", std::to_string(group.drives.size()));
       fields.emplace_back("wEncoderCount", std::to_string(group.encoders.size()));
       variable("axis group", group.name, "SM_DriveBasic.SMC_AXISGROUP_REF", fields);
+      if (group.shared != nullptr)
+        variable(group.shared->what, {sharedVariable(group), group.name.span}, group.shared->type,
+                 {});
       for (const DriveConfig &drive : group.drives) {
         fields = drive.fields;
         fields.emplace_back("wAxisGroupId", std::to_string(index));

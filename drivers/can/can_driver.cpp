@@ -2,6 +2,8 @@
 
 #include "drivers/can/master/frames.hpp"
 
+#include "st/SM_CAN/SMC_CAN_COUNTERS.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -55,8 +57,37 @@ void CanDriver::attach(bus::DriverHost &host) {
                        " % of the cycle: it must have ", load_.shortestCycle, " us");
 }
 
+bool CanDriver::bindGroupData(void *data, uint64_t layout) {
+  if (layout != ::st::SM_CAN::SMC_CAN_COUNTERS__layout__)
+    return false;
+  counters_ = data;
+  return true;
+}
+
+void CanDriver::showCounters() {
+  const auto wrapped = [](uint64_t count) { return static_cast<uint32_t>(count); };
+  auto &shown = *static_cast<::st::SM_CAN::SMC_CAN_COUNTERS *>(counters_);
+  const MasterCounters &own = master_.counters();
+  const PortCounters port = master_.port().counters();
+  shown.byBusState = static_cast<uint8_t>(master_.busState());
+  shown.udiSyncMissed = wrapped(own.syncMissed);
+  shown.udiSyncTwice = wrapped(own.syncTwice);
+  shown.udiForeignSyncs = wrapped(own.foreignSyncs);
+  shown.udiSendQueueFull = wrapped(own.sendQueueFull);
+  shown.udiSetValuesLate = wrapped(own.setValuesLate);
+  shown.udiReadsLate = wrapped(own.readsLate);
+  shown.udiOverloads = wrapped(own.overloads);
+  shown.udiFramesSent = wrapped(own.framesSent);
+  shown.udiFramesReceived = wrapped(own.framesReceived);
+  shown.udiFramesLost = wrapped(port.dropped);
+  shown.udiErrorFrames = wrapped(port.errorFrames);
+  shown.udiRestarts = wrapped(port.restarts);
+}
+
 void CanDriver::executeStart() {
   master_.executeStart();
+  if (counters_ != nullptr)
+    showCounters();
   startOthers();
   if (hasIos_)
     for (size_t i = 0; i < master_.nodeCount(); ++i)

@@ -35,6 +35,7 @@ public:
   void cancelParameter(size_t drive) override;
   [[nodiscard]] uint32_t encoder(size_t encoder) const override;
   [[nodiscard]] bool encoderWorks(size_t encoder) const override;
+  bool bindGroupData(void *data, uint64_t layout) override;
   void attach(bus::DriverHost &host) override;
   bus::SyncWake waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) override;
   void applicationStopped() override;
@@ -52,7 +53,10 @@ private:
   void startOthers();
   void stop();
 
+  void showCounters();
+
   Master master_;
+  void *counters_ = nullptr; ///< SMC_CAN_COUNTERS; null: nobody looks.
   BusLoad load_;
   std::vector<std::string> faults_; ///< Of each drive: why it cannot start.
   bus::DriverHost *host_ = nullptr;

@@ -265,6 +265,10 @@ public:
   /// there is none. Called before the first cycle and whenever the application has moved.
   virtual void bindData(size_t /*drive*/, void * /*data*/) {}
 
+  /// The same about the group (DriverSchema::groupData), with the layout that the application was
+  /// built with. FALSE: this driver knows another one, and leaves it alone.
+  virtual bool bindGroupData(void * /*data*/, uint64_t /*layout*/) { return true; }
+
   /// Whom it may talk to, before the first cycle; he lives as long as the driver is called.
   virtual void attach(DriverHost & /*host*/) {}
 

@@ -103,6 +103,11 @@ public:
       ids_.push_back(app.drives[group.firstDrive + i].driveId);
     }
     stopped_.resize(axes_.size());
+    if (!bindGroupData(app, state))
+      throw app::Error(fmt::format("the application was built with another layout of what the "
+                                   "driver '{}' shares with it (axis group '{}'); build it again "
+                                   "with this version of Stride",
+                                   group.driverName, name_));
     group_.driver().attach(*this);
     tasks.addHook(group.task, *this);
     if (const TaskDesc &task = app.tasks[group.task]; task.sync == index && task.intervalNs > 0)
@@ -170,6 +175,7 @@ public:
     const AxisGroupDesc &group = app.axisGroups[index_];
     ref_ = &groupOf(app, state, index_);
     group_.rebind(*ref_);
+    bindGroupData(app, state);
     for (uint32_t i = 0; i < group.driveCount; ++i) {
       axes_[i] = &axisOf(app, state, i);
       group_.rebind(i, *axes_[i]);
@@ -209,6 +215,11 @@ private:
     int64_t now = realClock_ ? task::monotonicNs() : ctx.cycleStartNs;
     inputs_->pass(now);
     return now;
+  }
+  bool bindGroupData(const StrideAppV1 &app, std::byte *state) noexcept {
+    const AxisGroupDesc &group = app.axisGroups[index_];
+    return group.dataLayout == 0 ||
+           group_.driver().bindGroupData(&at<BYTE>(state, group.dataOffset), group.dataLayout);
   }
   axis::AxisRef &axisOf(const StrideAppV1 &app, std::byte *state, uint32_t drive) const {
     const uint32_t first = app.axisGroups[index_].firstDrive;

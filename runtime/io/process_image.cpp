@@ -155,14 +155,15 @@ void ImageHook::beforePous(Ctx &ctx) {
       continue;
     const IoDeviceDesc &desc = app_->ioDevices[part.device->index];
     BYTE *to = image(part);
-    // After a loss the image has safe values, which nobody has written there.
-    if (part.sensed)
+    const bool lost = part.device->lost.load(std::memory_order_relaxed);
+    // Safe values of a loss are nobody's.
+    if (!part.safe)
       part.device->driver->sense(part.deviceByte, {to, part.count});
-    part.sensed = !part.device->lost.load(std::memory_order_relaxed);
-    if (part.sensed) {
+    part.safe = lost && desc.safeInputs != nullptr;
+    if (!lost) {
       if (read(part))
         copyWhole(to, buffer_.data(), part.count);
-    } else if (desc.safeInputs != nullptr) {
+    } else if (part.safe) {
       copyWhole(to, desc.safeInputs + part.deviceByte, part.count);
     }
   }

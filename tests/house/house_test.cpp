@@ -118,7 +118,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
        {"drivers/can/plan", "drivers/can/port", "runtime/bus", "runtime/iec"}},
       {"drivers/can",
        {"drivers/can/master", "drivers/can/simulation", "drivers/can/socket", "drivers/can/plan",
-        "drivers/can/port", "drivers/can/log", "drivers/dummy", "runtime/bus", "runtime/io"}},
+        "drivers/can/port", "drivers/can/log", "drivers/dummy", "runtime/bus", "runtime/io", "st"}},
       {"drivers/can/socket", {"drivers/can/port"}},
       {"drivers/can/tool",
        {"drivers/can", "drivers/can/master", "drivers/can/simulation", "drivers/can/socket",

@@ -134,6 +134,7 @@ void Master::awaitPdos() {
 }
 
 void Master::take(const Frame &frame) {
+  ++counters_.framesReceived;
   if (frame.id > Frame::kLastId || frame.length > Frame::kMostBytes || frame.remote)
     return;
   const Route route = routes_[frame.id];
@@ -201,6 +202,7 @@ uint32_t Master::awaitSync(int64_t monotonicNs) {
 bool Master::send(const Frame &frame, SendClass sendClass) {
   const SendResult result = port_->send(frame, sendClass);
   counters_.sendQueueFull += result == SendResult::QueueFull ? 1 : 0;
+  counters_.framesSent += result == SendResult::Sent ? 1 : 0;
   return result == SendResult::Sent;
 }
 

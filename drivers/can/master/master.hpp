@@ -36,6 +36,8 @@ struct MasterCounters {
   uint64_t setValuesLate = 0; ///< Cycles whose PDOs had not all gone out when the next one began.
   uint64_t readsLate = 0;     ///< Cycles that have waited for PDOs in vain.
   uint64_t overloads = 0;     ///< Cycles with more frames than are read in one.
+  uint64_t framesSent = 0;
+  uint64_t framesReceived = 0;
 };
 
 class Master {
@@ -66,6 +68,7 @@ public:
   [[nodiscard]] Port &port() { return *port_; }
   [[nodiscard]] const Port &port() const { return *port_; }
 
+  [[nodiscard]] ControllerState busState() const { return state_; }
   /// The bus is off, or the interface is down.
   [[nodiscard]] bool busLost() const {
     return state_ == ControllerState::BusOff || state_ == ControllerState::Down;
