@@ -27,7 +27,8 @@ bool isLost(ControllerState state) {
 
 Master::Master(const MasterConfig &config, std::unique_ptr<Port> port)
     : config_(config), port_(std::move(port)), frames_(kReserve * plannedFrames(config)),
-      heartbeatCycles_(cyclesOf(config.heartbeat, config.cycle)) {
+      heartbeatCycles_(cyclesOf(config.heartbeat, config.cycle)),
+      timeCycles_(config.timeStamp > 0 ? cyclesOf(config.timeStamp, config.cycle) : 0) {
   nodes_.reserve(config.nodes.size());
   for (const NodeConfig &node : config.nodes) {
     nodes_.emplace_back(node);
@@ -214,6 +215,7 @@ void Master::executeEnd() {
   sendPdos();
   sendCommands();
   sendHeartbeat();
+  sendTime();
   sendSdos();
 }
 
@@ -245,6 +247,32 @@ void Master::sendHeartbeat() {
   frame.data[0] = nmt::kOperational;
   if (send(frame, SendClass::Service))
     toHeartbeat_ = heartbeatCycles_ - 1;
+}
+
+/// TIME_OF_DAY: milliseconds of the day and days since 1984-01-01. [CiA 301] A bus without a clock
+/// of that kind begins there with the run.
+void Master::sendTime() {
+  ++cycles_;
+  if (timeCycles_ == 0)
+    return;
+  if (toTime_ > 0) {
+    --toTime_;
+    return;
+  }
+  constexpr int64_t kSecondMs = 1000;
+  constexpr int64_t kDayMs = 86'400 * kSecondMs;
+  constexpr int64_t kBeginDay = 5113; // of 1984, since 1970
+  const int64_t utc = port_->utcNs();
+  const int64_t ms =
+      utc >= 0
+          ? utc / 1'000'000
+          : kBeginDay * kDayMs +
+                static_cast<int64_t>(static_cast<double>(cycles_ - 1) * config_.cycle * 1e3 + 0.5);
+  Frame frame = makeFrame(kTimeId, 6);
+  writeNumber(frame, 0, 4, static_cast<uint32_t>(ms % kDayMs));
+  writeNumber(frame, 4, 2, static_cast<uint32_t>(std::max<int64_t>(ms / kDayMs - kBeginDay, 0)));
+  if (send(frame, SendClass::Service))
+    toTime_ = timeCycles_ - 1;
 }
 
 /// As many as the bus has room for; each node in its turn.

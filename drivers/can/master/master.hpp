@@ -19,6 +19,7 @@ struct MasterConfig {
   std::vector<NodeConfig> nodes;
   double cycle = 0.001;     ///< [s]
   double heartbeat = 0.1;   ///< The master's own. [s]
+  double timeStamp = 0;     ///< Period of its time stamps; 0: none. [s]
   uint8_t node = 126;       ///< The master's number.
   uint32_t sdoPerCycle = 1; ///< SDO frames that go out in a cycle at most.
   bool givesSync = true;    ///< Else a node does.
@@ -97,6 +98,7 @@ private:
   void sendPdos();
   void sendCommands();
   void sendHeartbeat();
+  void sendTime();
   void sendSdos();
 
   MasterConfig config_;
@@ -110,6 +112,9 @@ private:
   uint64_t dropped_ = 0;
   uint32_t heartbeatCycles_;
   uint32_t toHeartbeat_ = 0;
+  uint32_t timeCycles_; ///< Of the time stamps; 0: there are none.
+  uint32_t toTime_ = 0;
+  uint64_t cycles_ = 0;      ///< Since the beginning.
   uint32_t syncs_ = 0;       ///< In this cycle.
   uint32_t lateInRow_ = 0;   ///< Cycles whose set values were late.
   uint32_t missedInRow_ = 0; ///< Cycles without SYNC.

@@ -149,6 +149,7 @@ ObjectForm formOf(Object object);
 // Identifiers. [CiA 301, predefined connection set]
 inline constexpr uint16_t kNmtId = 0x000;
 inline constexpr uint16_t kSyncCobId = 0x080;
+inline constexpr uint16_t kTimeId = 0x100;
 inline constexpr uint16_t kEmcyBase = 0x080;
 inline constexpr uint16_t kTpdoBase = 0x180; ///< The next PDO 100h further.
 inline constexpr uint16_t kRpdoBase = 0x200; ///< The same.

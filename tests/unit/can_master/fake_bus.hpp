@@ -47,6 +47,7 @@ public:
     return true;
   }
   int64_t monotonicNs() const noexcept override { return clock; }
+  int64_t utcNs() const noexcept override { return utc; }
   ControllerState state() const noexcept override { return controller; }
   size_t unconfirmed() const noexcept override { return late; }
   PortCounters counters() const noexcept override { return portCounters; }
@@ -74,6 +75,7 @@ public:
   PortCounters portCounters;
   size_t late = 0;
   int64_t clock = -1; ///< Of wait().
+  int64_t utc = -1;
   int cycles = 0;
 };
 
