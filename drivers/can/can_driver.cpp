@@ -43,6 +43,7 @@ CanDriver::CanDriver(const bus::GroupSetup &setup, std::unique_ptr<Port> port)
 
 CanDriver::CanDriver(const CanSetup &setup, std::unique_ptr<Port> port)
     : master_(setup.master, std::move(port)), load_(setup.load), faults_(setup.faults),
+      notes_(setup.notes),
       periodNs_(std::max<int64_t>(static_cast<int64_t>(setup.master.cycle * 1e9 + 0.5), 1)),
       stopPatience_(cyclesOf(kStopPatience, setup.master.cycle)),
       offPatience_(cyclesOf(kOffPatience, setup.master.cycle)), standing_(setup.faults.size()),
@@ -52,6 +53,8 @@ CanDriver::CanDriver(const CanSetup &setup, std::unique_ptr<Port> port)
 void CanDriver::attach(bus::DriverHost &host) {
   host_ = &host;
   master_.attach(host);
+  for (const std::string &note : notes_)
+    master_.news().say(std::string_view(note));
   if (!load_.fits())
     master_.news().say("SYNC and PDOs need ", static_cast<uint32_t>(load_.share * 100 + 0.5),
                        " % of the cycle: it must have ", load_.shortestCycle, " us");

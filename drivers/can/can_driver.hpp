@@ -59,6 +59,7 @@ private:
   void *counters_ = nullptr; ///< SMC_CAN_COUNTERS; null: nobody looks.
   BusLoad load_;
   std::vector<std::string> faults_; ///< Of each drive: why it cannot start.
+  std::vector<std::string> notes_;
   bus::DriverHost *host_ = nullptr;
   int64_t periodNs_;
   uint32_t stopCycles_ = 0;        ///< Since the application has stopped …

@@ -24,6 +24,7 @@ simulation::DataType typeOf(uint32_t bits) {
     return simulation::DataType::Unsigned8;
   case 16:
     return simulation::DataType::Unsigned16;
+  case 0: // whatever it is
   case 32:
     return simulation::DataType::Unsigned32;
   default:
@@ -56,7 +57,7 @@ double stepsPerUnit(const bus::SetupParameters &encoder) {
 
 /// A drive that is what stride.toml expects.
 simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPlan &plan,
-                                     size_t index) {
+                                     const CanSetup &can, size_t index) {
   const bus::DriveSetup &drive = setup.drives[index];
   const bus::SetupParameters &given = drive.parameters;
   const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
@@ -74,7 +75,9 @@ simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPl
     if (plan.encoders[i].drive == index)
       result.secondEncoder =
           result.drive.unitsPerIncrement * stepsPerUnit(setup.encoders[i].parameters);
-  result.more = moreObjects(driveSettings(static_cast<uint8_t>(drive.id), given));
+  DriveSettings settings = driveSettings(static_cast<uint8_t>(drive.id), given);
+  settings.startup = can.master.nodes[index].parameters; // with those of a file
+  result.more = moreObjects(settings);
   return result;
 }
 
@@ -142,7 +145,8 @@ SimulatedNodes simulatedNodes(const bus::GroupSetup &setup) {
   nodes.drives.resize(setup.drives.size());
   for (size_t i = 0; i < setup.drives.size(); ++i)
     if (can.faults[i].empty())
-      nodes.drives[i] = std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup, plan, i));
+      nodes.drives[i] =
+          std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup, plan, can, i));
   for (size_t i = 0; i < setup.encoders.size(); ++i)
     if (plan.encoders[i].fault.empty() && plan.encoders[i].drive == EncoderPlan::kNode)
       nodes.encoders.push_back(makeEncoder(setup, setup.encoders[i], nodes));

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,7 +79,9 @@ struct GroupSetup {
   std::string bus;
   std::string interfaceType;
   BusKind kind = BusKind::Simulated;
-  BusRecording recording;  ///< As far as the driver can.
+  BusRecording recording; ///< As far as the driver can.
+  /// The folder for files, in which parameters of drives may be; nothing: nobody reads files.
+  std::optional<std::string> files;
   double cycleSeconds = 0; ///< Of the group's task.
   SetupParameters busParameters;
   SetupParameters parameters;

@@ -345,11 +345,10 @@ app::RuntimeLayouts runtimeLayouts() {
           ::st::SM_DriveBasic::SMC_ENCODER_REF__layout__};
 }
 
-std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
-                                                            task::TaskSet &tasks, InputPort &inputs,
-                                                            bus::BusKind buses,
-                                                            const bus::BusRecording &recording,
-                                                            const IoExchanges &exchanges) {
+std::vector<std::unique_ptr<task::CycleHook>>
+addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs,
+              bus::BusKind buses, const bus::BusRecording &recording, const std::string &files,
+              const IoExchanges &exchanges) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
@@ -359,6 +358,7 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
     const drivers::DriverEntry &driver = driverOf(group);
     bus::GroupSetup setup = groupSetup(app, group, *driver.schema);
     setup.kind = buses;
+    setup.files = files;
     setup.recording = {ownFile(recording.log, app, group), ownFile(recording.replay, app, group)};
     for (bus::IoSetup &io : setup.ios)
       io.exchange = exchanges[io.device];
@@ -370,13 +370,12 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
   return hooks;
 }
 
-std::vector<std::unique_ptr<task::CycleHook>> addDevices(const app::Application &application,
-                                                         task::TaskSet &tasks, InputPort &inputs,
-                                                         bus::BusKind buses,
-                                                         const bus::BusRecording &recording) {
+std::vector<std::unique_ptr<task::CycleHook>>
+addDevices(const app::Application &application, task::TaskSet &tasks, InputPort &inputs,
+           bus::BusKind buses, const bus::BusRecording &recording, const std::string &files) {
   const IoExchanges exchanges = ioExchanges(application.description());
   auto hooks = addIoDevices(application, tasks, inputs, IoPlace::Alone, exchanges);
-  for (auto &hook : addAxisGroups(application, tasks, inputs, buses, recording, exchanges))
+  for (auto &hook : addAxisGroups(application, tasks, inputs, buses, recording, files, exchanges))
     hooks.push_back(std::move(hook));
   for (auto &hook : addIoDevices(application, tasks, inputs, IoPlace::OnBus, exchanges))
     hooks.push_back(std::move(hook));

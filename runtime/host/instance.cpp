@@ -35,7 +35,8 @@ void Instance::initialise() {
   }
   application_->settle();
   for (std::unique_ptr<task::CycleHook> &hook :
-       addDevices(*application_, tasks_, *inputs_, buses_, recording_))
+       addDevices(*application_, tasks_, *inputs_, buses_, recording_,
+                  SystemServices::filesFolder(app(), filesFolder_)))
     hooks_.push_back(std::move(hook));
 }
 

@@ -147,7 +147,8 @@ private:
 
     TestTasks tasks(description, state, result_);
     tasks.setSystem(system_.cycleApi());
-    const auto devices = addDevices(application_, tasks, inputs_, bus::BusKind::Simulated, {});
+    const auto devices = addDevices(application_, tasks, inputs_, bus::BusKind::Simulated, {},
+                                    SystemServices::filesFolder(description, {}));
     for (int64_t timeNs = 0;; timeNs += cycleNs) {
       if (done != nullptr && timeNs >= plan_.timeoutNs) {
         fail("timeout",

@@ -98,6 +98,7 @@ void StartUp::go(size_t place) {
   place_ = place;
   waited_ = 0;
   asked_ = false;
+  measured_ = 0;
 }
 
 uint8_t StartUp::progress() const {
@@ -226,7 +227,8 @@ bool StartUp::chooseMode(const StartParts &parts, bus::Message &message) {
 
 StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
   const SdoWrite &object = now().object;
-  if (mannerOf(now().op) == Manner::Read) {
+  const bool measures = object.size == 0 && measured_ == 0; // before it is written
+  if (mannerOf(now().op) == Manner::Read || (now().op == StartOp::Write && measures)) {
     asked_ = parts.sdo.upload(object.object, bytes_);
     return Outcome::Busy;
   }
@@ -238,7 +240,8 @@ StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
   }
   for (size_t i = 0; i < bytes_.size(); ++i)
     bytes_[i] = static_cast<uint8_t>(value >> 8 * i);
-  const size_t size = std::clamp<size_t>(object.size, 1, bytes_.size());
+  const size_t size =
+      std::clamp<size_t>(object.size != 0 ? object.size : measured_, 1, bytes_.size());
   asked_ = parts.sdo.download(object.object, std::span<const uint8_t>(bytes_).first(size));
   return Outcome::Busy;
 }
@@ -252,9 +255,28 @@ StartUp::Outcome StartUp::answered(const StartParts &parts, bus::Message &messag
   default:
     break;
   }
+  if (now().op == StartOp::Write && now().object.size == 0 && measured_ == 0)
+    return measured(parts, message);
   if (mannerOf(now().op) == Manner::Write)
     return Outcome::Next;
   return taken(parts, numberOf(std::span<const uint8_t>(bytes_).first(parts.sdo.size())), message);
+}
+
+/// The node has told how long the object is: what is cut off of the value must be nothing, or its
+/// sign.
+StartUp::Outcome StartUp::measured(const StartParts &parts, bus::Message &message) {
+  const size_t size = parts.sdo.size();
+  const SdoWrite &write = now().object;
+  const uint32_t above = size < sizeof(uint32_t) ? write.value >> (8 * size - 1) : 0;
+  const bool sign = size < sizeof(uint32_t) && above == UINT32_MAX >> (8 * size - 1);
+  if (size >= 1 && size <= sizeof(uint32_t) && (above >> 1U == 0 || sign)) {
+    measured_ = static_cast<uint8_t>(size);
+    asked_ = false;
+    return Outcome::Busy;
+  }
+  message.set("node ", uint32_t{node_}, ", ", ObjectText(write.object), ": ", HexText(write.value),
+              " does not fit into its ", static_cast<uint32_t>(size), " bytes");
+  return Outcome::Failed;
 }
 
 StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message) {
