@@ -205,6 +205,7 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
   result.bitRate = plan.bitRate;
   result.load = plan.load;
   master.sdoPerCycle = result.load.sdoPerCycle;
+  master.bitsPerCycle = uint64_t{plan.bitRate} * plan.cycle / 1000;
   result.interface = setup.busParameters.text("interface");
   if (result.interface.empty())
     result.interface =

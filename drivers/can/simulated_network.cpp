@@ -8,10 +8,14 @@
 namespace stride::can {
 namespace {
 
+/// Frames that the queue of the interface holds, as docs/can.md says to set it.
+constexpr size_t kSendQueue = 128;
+
 simulation::BusSetup busSetup(const bus::GroupSetup &setup, const CanSetup &can) {
   simulation::BusSetup result;
   result.bitRate = can.bitRate * 1000;
   result.cycleNs = static_cast<int64_t>(setup.cycleSeconds * 1e9 + 0.5);
+  result.sendQueue = kSendQueue;
   return result;
 }
 

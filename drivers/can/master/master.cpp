@@ -1,6 +1,7 @@
 #include "drivers/can/master/master.hpp"
 
 #include "drivers/can/master/frames.hpp"
+#include "drivers/can/plan/bus_load.hpp"
 
 #include <algorithm>
 
@@ -13,7 +14,7 @@ constexpr uint32_t kMostLate = 2;
 constexpr size_t kReserve = 4;
 
 size_t plannedFrames(const MasterConfig &config) {
-  size_t frames = 1 + config.sdoPerCycle;
+  size_t frames = 1 + std::max(config.sdoPerCycle, kMostSdosPerCycle);
   for (const NodeConfig &node : config.nodes)
     frames += node.plan.tpdoCount + 2U; // heartbeat, EMCY
   return frames;
@@ -32,6 +33,7 @@ Master::Master(const MasterConfig &config, std::unique_ptr<Port> port)
   nodes_.reserve(config.nodes.size());
   for (const NodeConfig &node : config.nodes) {
     nodes_.emplace_back(node);
+    cyclicBits_.push_back(cyclicBits(node.plan));
     addRoutes(static_cast<uint8_t>(nodes_.size() - 1));
   }
   routes_[kSyncCobId] = {Kind::Sync};
@@ -275,9 +277,22 @@ void Master::sendTime() {
     toTime_ = timeCycles_ - 1;
 }
 
+/// What is left of the cycle beside SYNC and the PDOs of the nodes that have started.
+uint32_t Master::roomForSdos() const {
+  uint64_t bits = kSyncBits;
+  bool all = true;
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    bits += nodes_[i].started() ? cyclicBits_[i] : 0;
+    all = all && nodes_[i].started();
+  }
+  if (all || config_.bitsPerCycle == 0)
+    return config_.sdoPerCycle;
+  return std::max(config_.sdoPerCycle, sdosThatFit(config_.bitsPerCycle, bits));
+}
+
 /// As many as the bus has room for; each node in its turn.
 void Master::sendSdos() {
-  uint32_t room = config_.sdoPerCycle;
+  uint32_t room = roomForSdos();
   size_t idle = 0; // nodes in a row without a question
   while (room > 0 && idle < nodes_.size()) {
     SdoClient &sdo = nodes_[nextSdo_].sdo();

@@ -21,8 +21,11 @@ struct MasterConfig {
   double heartbeat = 0.1;   ///< The master's own. [s]
   double timeStamp = 0;     ///< Period of its time stamps; 0: none. [s]
   uint8_t node = 126;       ///< The master's number.
-  uint32_t sdoPerCycle = 1; ///< SDO frames that go out in a cycle at most.
-  bool givesSync = true;    ///< Else a node does.
+  uint32_t sdoPerCycle = 1; ///< SDO frames that go out in a cycle at most …
+  /// … but while nodes start up, and so send and are sent no PDOs yet, as many as a bus with that
+  /// many bits in a cycle has room for; 0: not known.
+  uint64_t bitsPerCycle = 0;
+  bool givesSync = true; ///< Else a node does.
   /// So long a cycle waits at most for the PDOs that SYNC has asked for; 0: they are those of the
   /// SYNC before. [ns]
   int64_t readWaitNs = 0;
@@ -100,11 +103,13 @@ private:
   void sendHeartbeat();
   void sendTime();
   void sendSdos();
+  [[nodiscard]] uint32_t roomForSdos() const;
 
   MasterConfig config_;
   std::unique_ptr<Port> port_;
   News news_;
   std::vector<Node> nodes_;
+  std::vector<uint32_t> cyclicBits_; ///< Of each node's synchronous PDOs.
   std::array<Route, Frame::kLastId + 1> routes_{};
   std::vector<Received> frames_; ///< Of a cycle.
   size_t early_ = 0;             ///< Frames that have come while SYNC was awaited.
