@@ -51,12 +51,17 @@ void Master::addRoutes(uint8_t index) {
 void Master::executeStart() {
   port_->beginCycle();
   watchBus();
-  if (config_.givesSync && !isLost(state_))
-    (void)send(makeFrame(kSyncCobId, 0), SendClass::Process);
   for (Node &node : nodes_)
     node.beginReceive();
   syncs_ = 0;
-  receiveAll();
+  // Who waits for what nodes say at SYNC must not take what they said at the one before for it.
+  const bool waits = config_.readWaitNs > 0;
+  if (waits)
+    receiveAll();
+  if (config_.givesSync && !isLost(state_))
+    giveSync();
+  if (!waits)
+    receiveAll();
   judgeSync();
   judgeSetValues();
   awaitPdos();
@@ -69,6 +74,12 @@ void Master::executeStart() {
   if (duplicate)
     for (Node &node : nodes_)
       node.lose(NodeLoss::Duplicate, news_);
+}
+
+void Master::giveSync() {
+  (void)send(makeFrame(kSyncCobId, 0), SendClass::Process);
+  for (Node &node : nodes_)
+    node.syncPassed();
 }
 
 void Master::watchBus() {
@@ -158,6 +169,8 @@ void Master::take(const Frame &frame) {
     break;
   case Kind::Sync:
     ++syncs_;
+    for (Node &node : nodes_)
+      node.syncPassed();
     break;
   }
 }

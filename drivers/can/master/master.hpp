@@ -90,6 +90,7 @@ private:
   };
 
   void addRoutes(uint8_t index);
+  void giveSync();
   void watchBus();
   void receiveAll();
   void awaitPdos();

@@ -88,6 +88,7 @@ void Node::tpdo(size_t place, const Frame &frame) {
   }
   wrongLength_ = 0;
   seen_ = seen_ | placeBit(place);
+  atSync_[place] = true;
   if (arrived_[place] < UINT8_MAX)
     ++arrived_[place];
 }
@@ -160,7 +161,7 @@ void Node::countPdos(uint32_t syncs) {
 
 bool Node::pdosComplete() const {
   for (size_t i = 0; i < config_.plan.tpdoCount; ++i)
-    if (config_.plan.tpdos[i].synchronous() && arrived_[i] == 0)
+    if (config_.plan.tpdos[i].synchronous() && !atSync_[i])
       return false;
   return true;
 }

@@ -6,7 +6,7 @@ usage: can_wire.py KERNELS BINARIES FAULTS GANTRY
 BINARIES: folder of stride, stride-host and stride-can. FAULTS, GANTRY: the projects can_faults and examples/CanGantry.
 
 Three guests, each in its own time: two SJA1000 controllers on one bus, one for the PLC and one for the drives; virtual buses, on which
-the first drive or node 127 gives SYNC, and a gantry with I/O on a second channel; and a bus with the bit rate of a wire, once enough and
+the first drive or node 127 gives SYNC or cycles wait for actual values, and a gantry with I/O on a second channel; and a bus with the bit rate of a wire, once enough and
 once too slow.
 """
 
@@ -50,10 +50,10 @@ true
 
 BUSES = f"""
 for i in 0 1; do /bin/ip link add can$i type vcan; /bin/ip link set can$i txqueuelen 128 up; done
-for sync in first device; do
+for sync in first device wait; do
   stride-can simulate /app/$sync.so > /dev/null & drives=$!
   sleep 0.1
-  stride-host run /app/$sync.so --for 3s --quiet --trace {TRACE} --out /out/$sync.csv > /out/$sync.text 2>&1
+  stride-host run /app/$sync.so --for 3s --quiet --trace {TRACE},X.fSetPosition,Axes_Can.udiReadsLate --out /out/$sync.csv > /out/$sync.text 2>&1
   kill $drives; wait
 done
 stride-can simulate /app/gantry.so --group Beam > /dev/null & beam=$!
@@ -86,6 +86,12 @@ def check_turns(out, name):
     check(row["X.fActPosition"] != later["X.fActPosition"], name, "does not move")
 
 
+def lag(trace):
+    """Cycles from a set position to the same actual one, while the axis turns evenly."""
+    i = next(i for i, row in enumerate(trace) if row["t"] > 2)
+    return min(range(8), key=lambda n: abs(trace[i]["X.fSetPosition"] - trace[i + n]["X.fActPosition"]))
+
+
 def check_controllers(out):
     check("drive (CiA 402)" in (out / "scan").read_text(), "scan says", (out / "scan").read_text())
     check_turns(out, "plain")
@@ -102,8 +108,12 @@ def check_controllers(out):
 
 
 def check_buses(out):
-    for name in ("first", "device"):
+    for name in ("first", "device", "wait"):
         check_turns(out, name)
+    lags = {name: lag(rows(out / f"{name}.csv")) for name in ("first", "wait")}
+    print("actual positions are", lags["first"], "cycles behind, with read_wait", lags["wait"])
+    check(lags == {"first": 3, "wait": 2}, "actual positions are behind", lags)
+    check(rows(out / "wait.csv")[-1]["Axes_Can.udiReadsLate"] < 5, "cycles wait in vain")
     trace, text = rows(out / "gantry.csv"), (out / "gantry.text").read_text()
     last = at(trace, 5.9)
     check(last["Gantry.udiParts"] >= 1, "the gantry has carried", last, text)
@@ -169,6 +179,8 @@ def main():
         guests.build("plain", options.faults)
         guests.build("first", options.faults, with_sync("1.Drive"))
         guests.build("device", options.faults, with_sync("SYNC device"))
+        guests.build("wait", options.faults, lambda text: text.replace(
+            'InterfaceType = "CAN (SocketCAN)"', 'InterfaceType = "CAN (SocketCAN)"\nread_wait = "T#500us"'))
         guests.build("gantry", options.gantry)
         guests.build("wire", options.faults, lambda text: text.replace(
             'InterfaceType = "CAN (SocketCAN)"', 'InterfaceType = "CAN (SocketCAN)"\ninterface = "vcan0"'))
