@@ -1,5 +1,5 @@
-// Frames on a CAN bus with two drives and an I/O device, whatever they are: through their start-up and in operation.
-// No drive that nobody has switched on is told to operate.
+// Frames on a CAN bus with two drives and an I/O device, whatever they are: through their start-up
+// and in operation. No drive that nobody has switched on is told to operate.
 #include "drivers/can/can_driver.hpp"
 #include "drivers/can/io_schema.hpp"
 #include "drivers/can/schema.hpp"

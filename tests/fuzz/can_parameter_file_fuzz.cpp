@@ -35,10 +35,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
       std::abort(); // nobody else's objects are written
     const std::string number = std::to_string(write.object.index * 256 + write.object.sub);
     // A value with a sign is one that an object without a sign cannot have.
-    const bool isSigned = write.size == 0 ? false : static_cast<int32_t>(write.value) < 0 &&
-                                                        formOf(write.object).isSigned;
-    const std::string value = isSigned ? std::to_string(static_cast<int32_t>(write.value))
-                                       : std::to_string(write.value);
+    const bool isSigned =
+        write.size == 0 ? false
+                        : static_cast<int32_t>(write.value) < 0 && formOf(write.object).isSigned;
+    const std::string value =
+        isSigned ? std::to_string(static_cast<int32_t>(write.value)) : std::to_string(write.value);
     text += number + ";" + value + ";;\n";
     xml += "<Parameter Number=\"" + number + "\">" + value + "</Parameter>\n";
   }

@@ -133,11 +133,12 @@ void Master::awaitPdos() {
   const int64_t now = config_.readWaitNs > 0 && !isLost(state_) ? port_->monotonicNs() : -1;
   if (now < 0)
     return;
+  const int64_t end = now + config_.readWaitNs;
   for (size_t room = frames_.size(); lacksPdos();) {
-    const size_t count = room > 0 && port_->wait(now + config_.readWaitNs)
-                             ? port_->receive(std::span(frames_).first(room))
-                             : 0;
-    if (count == 0) {
+    const bool any = room > 0 && port_->wait(end);
+    const size_t count = any ? port_->receive(std::span(frames_).first(room)) : 0;
+    // What comes may be nobody's: the port's own frames, which have left it.
+    if (!any || (count == 0 && port_->monotonicNs() >= end)) {
       ++counters_.readsLate;
       return;
     }

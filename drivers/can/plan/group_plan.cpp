@@ -1,5 +1,7 @@
 #include "drivers/can/plan/group_plan.hpp"
 
+#include "runtime/common/text.hpp"
+
 #include <algorithm>
 
 namespace stride::can {
@@ -28,6 +30,19 @@ DriveWish driveWish(uint32_t node, const bus::SetupParameters &given,
   return wish;
 }
 
+/// Its file with parameters is the data sheet of a device.
+bool isDataSheet(const bus::GroupSetup &setup, uint32_t id) {
+  for (const bus::DriveSetup &drive : setup.drives) {
+    if (drive.id != id)
+      continue;
+    const std::string name = common::lowerCase(drive.parameters.text("parameters"));
+    for (const std::string_view ending : {".dcf", ".eds", ".xdd", ".xdc"})
+      if (name.ends_with(ending))
+        return true;
+  }
+  return false;
+}
+
 /// Why a drive cannot be started at all.
 std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint32_t id,
                     const bus::GroupSetup &setup, bool hasSyncDevice) {
@@ -43,6 +58,10 @@ std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint3
     return "another drive has the same wDriveId";
   if (!settings.errors.empty())
     return settings.errors.front();
+  if (isDataSheet(setup, id))
+    return "`parameters` is a file of SMC_WriteDriveParamsToFile; of a DCF, `stride can import` "
+           "makes "
+           "`startup`";
   for (const PlanNote note : plan.notes)
     if (isError(note))
       return std::string(describe(note));

@@ -80,6 +80,17 @@ TEST_F(ReadWaitOf, WhatIsThereRightAfterSyncNeedsNoWait) {
   EXPECT_EQ(late(), 0U);
 }
 
+TEST_F(ReadWaitOf, ItsOwnFramesDoNotEndTheWait) {
+  begin();
+  port->echoes = 3; // SYNC and RPDOs have left the controller
+  arrives(0, 7);
+  arrives(1, 8);
+  cycle();
+  EXPECT_EQ(driver->status(0).position, 7U);
+  EXPECT_EQ(driver->status(1).position, 8U);
+  EXPECT_EQ(late(), 0U);
+}
+
 TEST_F(ReadWaitOf, ASilentNodeDelaysItsFirstCyclesOnly) {
   begin();
   for (int i = 0; i < 3; ++i) {
