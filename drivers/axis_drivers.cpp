@@ -9,7 +9,6 @@
 #define STRIDE_DECLARE_DRIVER(folder)                                                              \
   namespace stride::folder {                                                                       \
   uint64_t driveDataLayout();                                                                      \
-  uint64_t groupDataLayout();                                                                      \
   std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);                       \
   }
 STRIDE_AXIS_DRIVERS(STRIDE_DECLARE_DRIVER)
@@ -20,8 +19,7 @@ namespace stride::drivers {
 namespace {
 
 #define STRIDE_DRIVER_ENTRY(folder)                                                                \
-  DriverEntry{&folder::kSchema, folder::driveDataLayout, folder::groupDataLayout,                  \
-              folder::makeDriver},
+  DriverEntry{&folder::kSchema, folder::driveDataLayout, folder::makeDriver},
 constexpr std::array kDrivers = {STRIDE_AXIS_DRIVERS(STRIDE_DRIVER_ENTRY)};
 #undef STRIDE_DRIVER_ENTRY
 

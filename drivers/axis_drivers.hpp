@@ -18,8 +18,6 @@ struct DriverEntry {
   const bus::DriverSchema *schema;
   /// The layout hash of the type in schema->driveData, as this runtime knows it; 0: it has none.
   uint64_t (*driveDataLayout)();
-  /// The same for schema->groupData.
-  uint64_t (*groupDataLayout)();
   std::unique_ptr<bus::AxisDriver> (*make)(const bus::GroupSetup &setup);
 };
 

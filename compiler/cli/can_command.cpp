@@ -83,6 +83,42 @@ std::string settingsOfDrive(const eds::Device &device) {
   return text;
 }
 
+/// Objects of the communication profile and those that the driver serves: their values are its
+/// matter.
+bool isDrivers(uint16_t index) {
+  constexpr uint16_t kCommunicationEnd = 0x2000;
+  return index < kCommunicationEnd || index == 0x6040 || index == 0x6041 || index == 0x6060 ||
+         index == 0x6061 || index == 0x60C2;
+}
+
+/// "2031h:2 := UINT#500" for a value that a DCF has configured; empty: it cannot be in `startup`.
+std::string startUpOf(const eds::Object &object, uint8_t node) {
+  constexpr std::string_view kSigned[] = {"SINT", "INT", "DINT"};
+  constexpr std::string_view kUnsigned[] = {"USINT", "UINT", "UDINT"};
+  const unsigned bits = eds::bitsOf(object.type);
+  if (!object.configured || !object.isWritable() || isDrivers(object.index) ||
+      object.configured->isText || !eds::isWhole(object.type) ||
+      (bits != 8 && bits != 16 && bits != 32))
+    return {};
+  const size_t place = bits == 8 ? 0 : bits == 16 ? 1 : 2;
+  const std::string_view type = eds::isSigned(object.type) ? kSigned[place] : kUnsigned[place];
+  const std::string sub = object.sub != 0 ? fmt::format(":{}", object.sub) : std::string();
+  return fmt::format("{:04X}h{} := {}#{}", object.index, sub, type, object.configured->in(node));
+}
+
+/// The values of a DCF as `startup`, a line each; empty: it has none.
+std::string startUpList(const eds::Device &device, uint8_t node, size_t &others) {
+  std::string text;
+  for (const eds::Object &object : device.objects) {
+    const std::string one = startUpOf(object, node);
+    others += one.empty() && object.configured ? 1 : 0;
+    if (!one.empty())
+      text += fmt::format("  \"{}\",{}\n", one,
+                          object.name.empty() ? "" : "  # " + visible(object.name));
+  }
+  return text.empty() ? text : "startup = [\n" + text + "]\n";
+}
+
 /// What may keep the device from being used, as comments.
 std::string remarksOf(const eds::Device &device) {
   std::string text;
@@ -104,13 +140,6 @@ std::string remarksOf(const eds::Device &device) {
   else
     text += "# velocity_scale: increments per second that one unit of 606Ch is; see the maker's "
             "manual.\n";
-  size_t configured = 0;
-  for (const eds::Object &object : device.objects)
-    configured += object.configured ? 1 : 0;
-  if (configured != 0)
-    text += fmt::format("# Not in this section: {} configured values of the file; what the drive "
-                        "needs of them goes into `startup`.\n",
-                        configured);
   return text;
 }
 
@@ -123,6 +152,13 @@ std::string sectionOf(const eds::Device &device, const CanOptions &can) {
   text += remarksOf(device);
   text += fmt::format("[[bus.axis_group.drive]]\nname = \"{}\"\nwDriveId = {}\n", name, node);
   text += settingsOfDrive(device);
+  size_t others = 0;
+  text += startUpList(device, static_cast<uint8_t>(node), others);
+  if (others != 0)
+    text +=
+        fmt::format("# Not in this section: {} configured value{} of the file: the driver's own "
+                    "matter (PDOs, heartbeats), or no whole numbers of up to 32 bits.\n",
+                    others, others == 1 ? "" : "s");
   const eds::Identity &identity = device.identity;
   if (identity.vendor != 0) {
     text += "\n[bus.axis_group.drive.identity]\n";

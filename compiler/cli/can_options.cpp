@@ -93,6 +93,7 @@ void declareCan(CLI::App &app, Invocation &call) {
   declareImport(*can, call);
   handOn(*can, call, "scan", "List the nodes that answer on an interface");
   handOn(*can, call, "sdo", "Read or write objects of a node");
+  handOn(*can, call, "lss", "Find a node without a node id, or set a node id");
   declareMonitor(*can, call);
   declareSimulate(*can, call);
 }

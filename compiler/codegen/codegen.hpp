@@ -66,6 +66,7 @@ struct AppConfig {
     std::vector<ConfigParameter> parameters;
     std::vector<Drive> drives;
     std::vector<Encoder> encoders;
+    std::string data; ///< of the global variable that driver and program share; empty: none
   };
   /// A device of the process image, [[io]].
   struct IoDevice {

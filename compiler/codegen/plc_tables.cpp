@@ -114,6 +114,11 @@ void PlcTables::addAxisGroups() {
       if (equalIgnoringCase(config_.tasks[i].name, group.task))
         task = std::to_string(i);
     }
+    const auto [own, ownPlace] = group.data.empty() ? PlacedVariable{} : find_(group.data);
+    const std::string data = own == nullptr
+                                 ? "0, 0"
+                                 : "offsetof(App__, " + ownPlace + "), " +
+                                       std::to_string(c_.layouts.hash(own->type)) + "ULL";
     const AppConfig::Bus &bus = config_.buses[group.bus];
     groupRows_ += "    {\"" + escaped(group.name) + "\", \"" + escaped(bus.name) + "\", \"" +
                   escaped(bus.driver) + "\", offsetof(App__, " + place + "), " + task + ", " +
@@ -121,7 +126,7 @@ void PlcTables::addAxisGroups() {
                   std::to_string(driveCount_ - firstDrive) + ", " + std::to_string(group.bus) +
                   ", " + std::to_string(firstEncoder) + ", " +
                   std::to_string(encoderCount_ - firstEncoder) + ", " +
-                  addParameters(group.parameters) + "},\n";
+                  addParameters(group.parameters) + ", " + data + "},\n";
     ++groupCount_;
   }
 }

@@ -137,6 +137,7 @@ struct IoConfig {
   ConfigName name;
   Span inputSpan; ///< where its places are given
   Span outputSpan;
+  ConfigName axisGroup; ///< Whose bus it is at; empty: none.
   AppConfig::IoDevice device;
 };
 

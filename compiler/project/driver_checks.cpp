@@ -2,6 +2,8 @@
 
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
+#include "compiler/syntax/st_text.hpp"
+#include "drivers/io/registry.hpp"
 #include "drivers/registry.hpp"
 #include "runtime/bus/group_setup.hpp"
 
@@ -12,6 +14,15 @@ namespace {
 void addAll(const std::vector<ConfigParameter> &parameters, stride::bus::SetupParameters &to) {
   for (const ConfigParameter &parameter : parameters)
     to.add({parameter.name, parameter.text, parameter.number});
+}
+
+/// The I/O devices at the bus of an axis group: places in the configuration.
+std::vector<size_t> iosOf(const ProjectConfig &config, const AxisGroupConfig &group) {
+  std::vector<size_t> ios;
+  for (size_t i = 0; i < config.ioDevices.size(); ++i)
+    if (equalIgnoringCase(config.ioDevices[i].axisGroup.text, group.name.text))
+      ios.push_back(i);
+  return ios;
 }
 
 /// The configuration of an axis group as its driver gets it at run time. `driver` is that of the
@@ -29,6 +40,19 @@ stride::bus::GroupSetup driverSetup(const ProjectConfig &config, const AxisGroup
     addAll(drive.parameters, setup.addDrive(drive.name.text, drive.id).parameters);
   for (const EncoderConfig &encoder : group.encoders)
     addAll(encoder.parameters, setup.addEncoder(encoder.name.text, encoder.id).parameters);
+  for (const size_t index : iosOf(config, group)) {
+    const AppConfig::IoDevice &device = config.ioDevices[index].device;
+    const stride::io::IoSchema &schema = *stride::drivers::findIoSchema(device.driver);
+    stride::bus::IoSetup &io = setup.ios.emplace_back();
+    io.name = device.name;
+    io.inputBytes = device.inputCount;
+    io.outputBytes = device.outputCount;
+    io.safeOutputs = device.safeOutputs;
+    io.device = index;
+    io.parameters =
+        stride::bus::SetupParameters({{}, schema.parameters, schema.tables}, cycleSeconds);
+    addAll(device.parameters, io.parameters);
+  }
   return setup;
 }
 
@@ -52,8 +76,10 @@ void checkByDriver(const ProjectConfig &config, const AxisGroupConfig &group, do
   stride::bus::GroupFindings findings;
   driver->check(driverSetup(config, group, *driver, cycleSeconds), findings);
   for (const stride::bus::GroupFinding &finding : findings) {
-    const Span span = finding.drive < group.drives.size() ? group.drives[finding.drive].name.span
-                                                          : group.name.span;
+    const std::vector<size_t> ios = iosOf(config, group);
+    const Span span = finding.io < ios.size() ? config.ioDevices[ios[finding.io]].name.span
+                      : finding.drive < group.drives.size() ? group.drives[finding.drive].name.span
+                                                            : group.name.span;
     Diagnostic &d =
         diagnostics.report(finding.isError ? Code::ConfigDriverRefuses : Code::ConfigDriverWarns,
                            span, finding.message, finding.label);

@@ -129,9 +129,15 @@ IoSection::IoSection(const IoSchema *driver, std::span<const IoSchema *const> al
   general_.insert(general_.begin() + 1, common::choice("device", devices_).needed());
   io_.begin({"io", "an I/O device", "io", true});
   io_.add(general_);
-  forEachDriver(driver, all, [this](const IoSchema &one, bool foreign) {
-    io_.add(one.parameters,
-            foreign ? fmt::format("only with device = \"{}\"", one.name) : std::string());
+  forEachDriver(driver, all, [this, driver](const IoSchema &one, bool foreign) {
+    const std::string reason =
+        foreign ? fmt::format("only with device = \"{}\"", one.name) : std::string();
+    // What one kind needs the others do without.
+    for (Parameter parameter : one.parameters) {
+      parameter.required = parameter.required && &one == driver;
+      io_.add({&parameter, 1}, reason);
+    }
+    io_.add(one.tables, reason);
   });
   io_.add(kIoChannel);
   section_ = &io_.finish();
@@ -354,11 +360,6 @@ const stride::bus::SharedData *sharedDataOf(const CheckedSection &drive, std::st
         drive.get(one->driveData.table) != nullptr)
       return &one->driveData;
   return nullptr;
-}
-
-const stride::bus::SharedData *sharedGroupDataOf(std::string_view driver) {
-  const DriverSchema *known = stride::drivers::findSchema(driver);
-  return known != nullptr && !known->groupData.type.empty() ? &known->groupData : nullptr;
 }
 
 } // namespace stc

@@ -120,9 +120,6 @@ void checkByDriver(const ProjectConfig &config, const AxisGroupConfig &group, do
 [[nodiscard]] const stride::bus::SharedData *sharedDataOf(const CheckedSection &drive,
                                                           std::string_view driver);
 
-/// The same about an axis group.
-[[nodiscard]] const stride::bus::SharedData *sharedGroupDataOf(std::string_view driver);
-
 } // namespace stc
 
 #endif // STRIDE_COMPILER_PROJECT_DRIVER_SECTIONS_HPP

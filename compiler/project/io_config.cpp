@@ -1,6 +1,7 @@
 #include "compiler/project/io_config.hpp"
 
 #include "compiler/project/driver_sections.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/st_text.hpp"
 #include "drivers/io/registry.hpp"
 
@@ -100,7 +101,10 @@ public:
     if (section_.choice("on_loss") == 1)
       device.safeInputs.resize(device.inputCount);
     readParameters(driver, device);
-    checkRules(section_, {.counts = {}}, diagnostics_);
+    readDriverTables(section_, {.counts = {}, .what = "I/O device"}, device.parameters,
+                     diagnostics_);
+    if (!driver.bus.empty() && !readAxisGroup(driver, io))
+      return;
     io.inputSpan = spanOf("inputs", name->span);
     io.outputSpan = spanOf("outputs", name->span);
     checkOverlap(io);
@@ -116,6 +120,48 @@ private:
   Span spanOf(std::string_view key, Span otherwise) const {
     const TomlNode *node = section_.get(key);
     return node != nullptr ? node->keySpan.to(node->span) : otherwise;
+  }
+
+  /// The axis group that it is at: there is one of that name, with that driver.
+  bool readAxisGroup(const stride::io::IoSchema &driver, IoConfig &io) {
+    const TomlNode *name = section_.get("axis_group");
+    if (name == nullptr)
+      return false; // which has been reported
+    io.axisGroup = {name->text, name->span};
+    std::vector<std::string_view> known;
+    for (const AxisGroupConfig &group : config_.axisGroups) {
+      if (group.driver != driver.bus)
+        continue;
+      if (equalIgnoringCase(group.name.text, name->text)) {
+        warnAboutDrives(group, io);
+        return true;
+      }
+      known.push_back(group.name.text);
+    }
+    if (config_.incomplete)
+      return false; // it may be one that could not be read
+    Diagnostic &d = diagnostics_.report(
+        Code::ConfigUnknownChoice, name->span,
+        fmt::format("there is no axis group `{}` with the driver {}", name->text, driver.bus),
+        "the bus of this device");
+    if (const std::string_view near = nearest(name->text, known); !near.empty())
+      d.help(fmt::format("did you mean \"{}\"?", near));
+    else
+      d.help("a channel with I/O devices only is an axis group without drives");
+    return false;
+  }
+
+  void warnAboutDrives(const AxisGroupConfig &group, const IoConfig &io) {
+    if (group.drives.empty())
+      return;
+    diagnostics_
+        .report(Code::ConfigIoAmongDrives, io.axisGroup.span,
+                fmt::format("I/O device `{}` shares a bus with drives", io.name.text),
+                fmt::format("the bus of {} drive{}", group.drives.size(),
+                            group.drives.size() == 1 ? "" : "s"))
+        .note("SoftMotion V2.3 has drives alone on a CAN channel, so that nothing delays them; "
+              "here the device's PDOs count in the plan of the bus (`stride can plan`)")
+        .help("give it a channel of its own: a `[[bus]]` with an axis group without drives");
   }
 
   /// Those of the driver with their defaults, so that an online change sees what has changed. Names

@@ -113,10 +113,12 @@ void PlcReader::readAxisGroup(const CheckedSection &section, BusConfig &bus, Bus
   addParameters(section, "", group.parameters);
   readDriverTables(section, {.what = "axis group", .group = &group}, group.parameters,
                    diagnostics_);
-  group.shared = sharedGroupDataOf(group.driver);
-  bool declared = addVariable(group.name);
-  if (declared && group.shared != nullptr)
-    declared = addVariable({sharedVariable(group), group.name.span});
+  const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
+  if (driver != nullptr && !driver->groupData.type.empty())
+    group.shared = &driver->groupData;
+  const bool declared =
+      addVariable(group.name) &&
+      (group.shared == nullptr || addVariable({sharedVariable(group), group.name.span}));
   Unique driveIds(Code::ConfigDuplicateDriveId, diagnostics_);
   for (const CheckedSection &drive : section.sections("drive", diagnostics_))
     readDrive(drive, group, driveIds);

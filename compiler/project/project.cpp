@@ -369,6 +369,7 @@ AppConfig Project::appConfig() const {
       group.drives.push_back({drive.name.text, sharedVariable(drive), drive.id, drive.parameters});
     for (const EncoderConfig &encoder : from.encoders)
       group.encoders.push_back({encoder.name.text, encoder.id, encoder.parameters});
+    group.data = sharedVariable(from);
     app.axisGroups.push_back(std::move(group));
   }
   for (const auto &[variable, unit] : units())

@@ -2,6 +2,8 @@
 
 #include "drivers/can/master/frames.hpp"
 
+#include "st/SM_CAN/SMC_CAN_COUNTERS.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -15,8 +17,24 @@ static_assert(cyclic::kPosition == bus::kPosition && cyclic::kVelocity == bus::k
 constexpr double kStopPatience = 1; // s
 /// And so long until all drives are off.
 constexpr double kOffPatience = 3; // s
+/// I/O devices are told their safe values, and have them from the SYNC after that on.
+constexpr uint32_t kIoCycles = 3;
 /// A drive that is not told to move for so many cycles stands.
 constexpr uint32_t kStandingCycles = 10;
+
+std::string_view nameOf(NodeConfig::Kind kind) {
+  switch (kind) {
+  case NodeConfig::Kind::Encoder:
+    return "encoder: ";
+  case NodeConfig::Kind::Io:
+    return "I/O device: ";
+  case NodeConfig::Kind::SyncDevice:
+    return "SYNC device: ";
+  case NodeConfig::Kind::Drive:
+    break;
+  }
+  return "";
+}
 
 } // namespace
 
@@ -25,28 +43,64 @@ CanDriver::CanDriver(const bus::GroupSetup &setup, std::unique_ptr<Port> port)
 
 CanDriver::CanDriver(const CanSetup &setup, std::unique_ptr<Port> port)
     : master_(setup.master, std::move(port)), load_(setup.load), faults_(setup.faults),
+      notes_(setup.notes),
       periodNs_(std::max<int64_t>(static_cast<int64_t>(setup.master.cycle * 1e9 + 0.5), 1)),
       stopPatience_(cyclesOf(kStopPatience, setup.master.cycle)),
       offPatience_(cyclesOf(kOffPatience, setup.master.cycle)), standing_(setup.faults.size()),
-      encoders_(setup.encoders), drives_(setup.faults.size()), syncDevice_(setup.hasSyncDevice),
+      encoders_(setup.encoders), drives_(setup.faults.size()), hasIos_(setup.hasIos),
       othersFailed_(setup.master.nodes.size() - setup.faults.size()) {}
 
 void CanDriver::attach(bus::DriverHost &host) {
   host_ = &host;
   master_.attach(host);
+  for (const std::string &note : notes_)
+    master_.news().say(std::string_view(note));
   if (!load_.fits())
     master_.news().say("SYNC and PDOs need ", static_cast<uint32_t>(load_.share * 100 + 0.5),
                        " % of the cycle: it must have ", load_.shortestCycle, " us");
 }
 
+bool CanDriver::bindGroupData(void *data, uint64_t layout) {
+  if (layout != ::st::SM_CAN::SMC_CAN_COUNTERS__layout__)
+    return false;
+  counters_ = data;
+  return true;
+}
+
+void CanDriver::showCounters() {
+  const auto wrapped = [](uint64_t count) { return static_cast<uint32_t>(count); };
+  auto &shown = *static_cast<::st::SM_CAN::SMC_CAN_COUNTERS *>(counters_);
+  const MasterCounters &own = master_.counters();
+  const PortCounters port = master_.port().counters();
+  shown.byBusState = static_cast<uint8_t>(master_.busState());
+  shown.udiSyncMissed = wrapped(own.syncMissed);
+  shown.udiSyncTwice = wrapped(own.syncTwice);
+  shown.udiForeignSyncs = wrapped(own.foreignSyncs);
+  shown.udiSendQueueFull = wrapped(own.sendQueueFull);
+  shown.udiSetValuesLate = wrapped(own.setValuesLate);
+  shown.udiReadsLate = wrapped(own.readsLate);
+  shown.udiOverloads = wrapped(own.overloads);
+  shown.udiFramesSent = wrapped(own.framesSent);
+  shown.udiFramesReceived = wrapped(own.framesReceived);
+  shown.udiFramesLost = wrapped(port.dropped);
+  shown.udiErrorFrames = wrapped(port.errorFrames);
+  shown.udiRestarts = wrapped(port.restarts);
+}
+
 void CanDriver::executeStart() {
   master_.executeStart();
+  if (counters_ != nullptr)
+    showCounters();
   startOthers();
+  if (hasIos_)
+    for (size_t i = 0; i < master_.nodeCount(); ++i)
+      master_.node(i).showIo();
   if (host_ != nullptr && !stopped_ && master_.syncRuns())
     host_->raise(bus::BusEvent::Sync);
 }
 
-/// Encoders and the SYNC device belong to no axis: nobody else asks for their start-up.
+/// Encoders, I/O devices and the SYNC device belong to no axis: nobody else asks for their
+/// start-up.
 void CanDriver::startOthers() {
   for (size_t i = 0; i < othersFailed_.size(); ++i) {
     Node &node = master_.node(drives_ + i);
@@ -57,12 +111,11 @@ void CanDriver::startOthers() {
     if (node.init(progress, message, master_.news()) != bus::StartUp::Failed)
       continue;
     othersFailed_[i] = true;
-    const bool sync = syncDevice_ && i + 1 == othersFailed_.size();
-    master_.news().say(sync ? "SYNC device: " : "encoder: ", message.text());
+    master_.news().say(nameOf(node.config().kind), message.text());
   }
 }
 
-/// With the drives, those that have failed or are lost begin anew.
+/// Those that have failed or are lost begin anew.
 void CanDriver::resetOthers() {
   for (size_t i = 0; i < othersFailed_.size(); ++i) {
     if (!othersFailed_[i] && master_.node(drives_ + i).loss() == NodeLoss::None)
@@ -180,6 +233,8 @@ void CanDriver::applicationStopped() { stopped_ = true; }
 bool CanDriver::atRest() const {
   if (!stopped_ || stopCycles_ >= offPatience_)
     return true;
+  if (hasIos_ && stopCycles_ < kIoCycles)
+    return false;
   for (size_t i = 0; i < drives_; ++i) {
     const Node &node = master_.node(i);
     if (node.communication() && node.drive().powerState() == PowerState::Enabled)

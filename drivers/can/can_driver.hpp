@@ -25,6 +25,7 @@ public:
   void executeEnd() override;
   bus::StartUp init(size_t drive, uint16_t &progress, bus::Message &message) override;
   void reset(size_t drive) override;
+  void resetOthers() override;
   [[nodiscard]] bus::DriveStatus status(size_t drive) const override;
   void command(size_t drive, const bus::DriveCommand &command) override;
   [[nodiscard]] uint8_t controllerModes(size_t drive) const override;
@@ -34,6 +35,7 @@ public:
   void cancelParameter(size_t drive) override;
   [[nodiscard]] uint32_t encoder(size_t encoder) const override;
   [[nodiscard]] bool encoderWorks(size_t encoder) const override;
+  bool bindGroupData(void *data, uint64_t layout) override;
   void attach(bus::DriverHost &host) override;
   bus::SyncWake waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) override;
   void applicationStopped() override;
@@ -49,12 +51,15 @@ private:
   CanDriver(const CanSetup &setup, std::unique_ptr<Port> port);
 
   void startOthers();
-  void resetOthers();
   void stop();
 
+  void showCounters();
+
   Master master_;
+  void *counters_ = nullptr; ///< SMC_CAN_COUNTERS; null: nobody looks.
   BusLoad load_;
   std::vector<std::string> faults_; ///< Of each drive: why it cannot start.
+  std::vector<std::string> notes_;
   bus::DriverHost *host_ = nullptr;
   int64_t periodNs_;
   uint32_t stopCycles_ = 0;        ///< Since the application has stopped …
@@ -63,7 +68,7 @@ private:
   std::vector<uint32_t> standing_; ///< Of each drive: cycles without a demand to move.
   std::vector<CanSetup::EncoderSource> encoders_;
   size_t drives_;
-  bool syncDevice_ = false;        ///< The last node gives SYNC.
+  bool hasIos_ = false;
   std::vector<bool> othersFailed_; ///< Of each node after those of the drives.
   bool stopped_ = false;
 };
@@ -73,8 +78,6 @@ std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);
 
 /// Of DUMMY_DRIVE_SIM, as this runtime knows it.
 uint64_t driveDataLayout();
-/// There is none.
-uint64_t groupDataLayout();
 
 } // namespace stride::can
 

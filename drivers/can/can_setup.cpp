@@ -1,9 +1,15 @@
 #include "drivers/can/can_setup.hpp"
 
 #include "drivers/can/master/frames.hpp"
+#include "drivers/can/plan/parameter_file.hpp"
 #include "drivers/can/schema.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <system_error>
 
 namespace stride::can {
 namespace {
@@ -84,6 +90,74 @@ void addEncoders(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &
   }
 }
 
+void addIos(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &result) {
+  for (size_t i = 0; i < setup.ios.size(); ++i) {
+    const IoPlan &io = plan.ios[i];
+    if (!io.fault.empty())
+      continue;
+    NodeConfig node = busConfig(setup, setup.ios[i].parameters);
+    node.kind = NodeConfig::Kind::Io;
+    node.plan = io.plan;
+    node.parameters = io.startup;
+    node.io = {setup.ios[i].exchange, io.rpdoAt, io.tpdoAt};
+    result.master.nodes.push_back(std::move(node));
+  }
+}
+
+/// The text of a file in the folder for files, which no name and no link leads out of; nothing: it
+/// is not there, or cannot be read.
+std::optional<std::string> textOfFile(const std::string &folder, const std::string &name) {
+  namespace fs = std::filesystem;
+  constexpr uintmax_t kMostBytes = uintmax_t{1} << 20U;
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, error);
+  const fs::path path = fs::weakly_canonical(root / name, error);
+  const auto parted = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
+  if (error || parted.first != root.end() || !fs::is_regular_file(path, error) ||
+      fs::file_size(path, error) > kMostBytes)
+    return std::nullopt;
+  const std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return file ? std::optional(text.str()) : std::nullopt;
+}
+
+/// A value that is given twice is the last one, in the length that is known.
+void addOrReplace(std::vector<SdoWrite> &writes, SdoWrite write) {
+  const auto same = std::find_if(writes.begin(), writes.end(),
+                                 [&](const SdoWrite &one) { return one.object == write.object; });
+  if (same == writes.end()) {
+    writes.push_back(write);
+    return;
+  }
+  const uint32_t above =
+      same->size < sizeof(uint32_t) ? write.value >> (8U * same->size - 1U) : uint32_t{0};
+  const bool fits = above >> 1U == 0 || above == UINT32_MAX >> (8U * same->size - 1U);
+  write.size = fits ? same->size : uint8_t{0}; // the drive is asked, and it will not fit
+  *same = write;
+}
+
+/// Parameters of a file, after those of `startup`. Without the file, which the program may have
+/// still to write, the drive keeps its own.
+void addFileParameters(const bus::GroupSetup &setup, CanSetup &result) {
+  for (size_t i = 0; setup.files && i < setup.drives.size(); ++i) {
+    const std::string name = setup.drives[i].parameters.text("parameters");
+    if (name.empty() || !result.faults[i].empty())
+      continue;
+    const std::optional<std::string> text = textOfFile(*setup.files, name);
+    if (!text) {
+      result.notes.push_back("drive '" + setup.drives[i].name + "': there is no file '" + name +
+                             "' with its parameters: it keeps those that it has");
+      continue;
+    }
+    const ParameterFile file = readParameterFile(*text);
+    for (const SdoWrite &write : file.writes)
+      addOrReplace(result.master.nodes[i].parameters, write);
+    if (!file.error.empty())
+      result.faults[i] = "the file '" + name + "' with its parameters, " + file.error;
+  }
+}
+
 /// A place in the list of nodes that nobody answers at.
 NodeConfig nobody(const NodeConfig &like) {
   NodeConfig node = like;
@@ -107,7 +181,10 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
     node.producesSync = plan.sync == SyncProducer::FirstDrive && i == 0;
     master.nodes.push_back(std::move(node));
   }
+  addFileParameters(setup, result);
   addEncoders(setup, plan, result);
+  addIos(setup, plan, result);
+  result.hasIos = !setup.ios.empty();
   if (result.hasSyncDevice) {
     NodeConfig device;
     device.kind = NodeConfig::Kind::SyncDevice;
@@ -122,11 +199,13 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
   if (setup.kind == bus::BusKind::Real)
     master.readWaitNs = static_cast<int64_t>(setup.busParameters.number("read_wait") * 1e9 + 0.5);
   master.heartbeat = setup.busParameters.number("heartbeat");
+  master.timeStamp = setup.busParameters.number("time_stamp");
   master.node = static_cast<uint8_t>(setup.busParameters.number("node_id"));
   master.givesSync = plan.sync == SyncProducer::Master;
   result.bitRate = plan.bitRate;
   result.load = plan.load;
   master.sdoPerCycle = result.load.sdoPerCycle;
+  master.bitsPerCycle = uint64_t{plan.bitRate} * plan.cycle / 1000;
   result.interface = setup.busParameters.text("interface");
   if (result.interface.empty())
     result.interface =

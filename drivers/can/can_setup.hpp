@@ -17,6 +17,7 @@ struct CanSetup {
   std::string interface;           ///< "can0".
   uint32_t bitRate = 1000;         ///< [kBit/s]
   std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
+  std::vector<std::string> notes;  ///< To be said when the run begins.
   /// Of each encoder: the node that tells its position, and in which signal.
   struct EncoderSource {
     size_t node = 0;
@@ -24,6 +25,7 @@ struct CanSetup {
     std::string fault; ///< Why it cannot be read; empty: nothing.
   };
   std::vector<EncoderSource> encoders;
+  bool hasIos = false;        ///< Nodes after those of the encoders.
   bool hasSyncDevice = false; ///< It is the last node.
 };
 

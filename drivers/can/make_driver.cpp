@@ -116,6 +116,5 @@ std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup) {
 }
 
 uint64_t driveDataLayout() { return dummy::driveDataLayout(); }
-uint64_t groupDataLayout() { return 0; }
 
 } // namespace stride::can

@@ -66,6 +66,9 @@ inline constexpr std::array kBus = {
         .says("period of the heartbeats of master and drives; whoever misses 1.5 of them knows "
               "that the other one is gone"),
     duration("sdo_timeout").defaultsTo(0.5).says("for each answer to an SDO"),
+    duration("time_stamp")
+        .says("the master sends the time of day (object 100h, TIME_OF_DAY) so often; default: "
+              "never"),
     duration("read_wait")
         .says("after SYNC a cycle waits so long at most for what the drives say at it: actual "
               "values are "
@@ -119,6 +122,9 @@ inline constexpr std::array kDrive = {
         "objects that are written when the drive starts, after its PDOs, in this order: "
         "`[\"6098h := 35\", \"2031h:2 := UINT#500\"]`; the type may be left out where CiA 402 "
         "fixes it"),
+    text("parameters")
+        .says("a file in the folder for files, written by SMC_WriteDriveParamsToFile as text or "
+              "XML: its parameters are written when the drive starts, after `startup`"),
     whole("pdo_timeout", 1, 1000, "cycles")
         .defaultsTo(3)
         .says("without a synchronous PDO until the drive counts as silent"),
@@ -196,6 +202,9 @@ inline constexpr bus::DriverSchema kSchema = {
                   .table = "physics",
                   .suffix = "_Sim",
                   .what = "simulation of drive"},
+    .groupData = {.type = "SM_CAN.SMC_CAN_COUNTERS",
+                  .suffix = "_Can",
+                  .what = "counters of axis group"},
     .givesSync = true,
     .records = true,
     .bus = rows::kBus,

@@ -2,13 +2,20 @@
 
 #include "drivers/can/can_setup.hpp"
 
+#include <array>
+#include <span>
+
 namespace stride::can {
 namespace {
+
+/// Frames that the queue of the interface holds, as docs/can.md says to set it.
+constexpr size_t kSendQueue = 128;
 
 simulation::BusSetup busSetup(const bus::GroupSetup &setup, const CanSetup &can) {
   simulation::BusSetup result;
   result.bitRate = can.bitRate * 1000;
   result.cycleNs = static_cast<int64_t>(setup.cycleSeconds * 1e9 + 0.5);
+  result.sendQueue = kSendQueue;
   return result;
 }
 
@@ -21,6 +28,7 @@ simulation::DataType typeOf(uint32_t bits) {
     return simulation::DataType::Unsigned8;
   case 16:
     return simulation::DataType::Unsigned16;
+  case 0: // whatever it is
   case 32:
     return simulation::DataType::Unsigned32;
   default:
@@ -53,7 +61,7 @@ double stepsPerUnit(const bus::SetupParameters &encoder) {
 
 /// A drive that is what stride.toml expects.
 simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPlan &plan,
-                                     size_t index) {
+                                     const CanSetup &can, size_t index) {
   const bus::DriveSetup &drive = setup.drives[index];
   const bus::SetupParameters &given = drive.parameters;
   const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
@@ -71,7 +79,9 @@ simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPl
     if (plan.encoders[i].drive == index)
       result.secondEncoder =
           result.drive.unitsPerIncrement * stepsPerUnit(setup.encoders[i].parameters);
-  result.more = moreObjects(driveSettings(static_cast<uint8_t>(drive.id), given));
+  DriveSettings settings = driveSettings(static_cast<uint8_t>(drive.id), given);
+  settings.startup = can.master.nodes[index].parameters; // with those of a file
+  result.more = moreObjects(settings);
   return result;
 }
 
@@ -108,6 +118,28 @@ std::unique_ptr<simulation::SimulatedEncoder406> makeEncoder(const bus::GroupSet
   return node;
 }
 
+std::unique_ptr<simulation::SimulatedIo401> makeIo(const bus::IoSetup &io, const IoPlan &plan) {
+  const auto number = [&](const char *name) {
+    return static_cast<uint32_t>(io.parameters.number(name));
+  };
+  simulation::Io401Setup result;
+  result.node.id = static_cast<uint8_t>(number("node"));
+  result.node.name = "Stride simulated I/O device";
+  result.node.vendor = number("identity.vendor");
+  result.node.product = number("identity.product");
+  result.node.revision = number("identity.revision");
+  result.node.serial = number("identity.serial");
+  result.inputBytes = static_cast<uint8_t>(plan.inputs.digital);
+  result.outputBytes = static_cast<uint8_t>(plan.outputs.digital);
+  result.analogInputs = static_cast<uint8_t>(plan.inputs.analog);
+  result.analogOutputs = static_cast<uint8_t>(plan.outputs.analog);
+  result.wired = io.parameters.flag("wired");
+  DriveSettings settings;
+  settings.startup = plan.startup;
+  result.more = moreObjects(settings);
+  return std::make_unique<simulation::SimulatedIo401>(result);
+}
+
 } // namespace
 
 SimulatedNodes simulatedNodes(const bus::GroupSetup &setup) {
@@ -117,10 +149,13 @@ SimulatedNodes simulatedNodes(const bus::GroupSetup &setup) {
   nodes.drives.resize(setup.drives.size());
   for (size_t i = 0; i < setup.drives.size(); ++i)
     if (can.faults[i].empty())
-      nodes.drives[i] = std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup, plan, i));
+      nodes.drives[i] =
+          std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup, plan, can, i));
   for (size_t i = 0; i < setup.encoders.size(); ++i)
     if (plan.encoders[i].fault.empty() && plan.encoders[i].drive == EncoderPlan::kNode)
       nodes.encoders.push_back(makeEncoder(setup, setup.encoders[i], nodes));
+  for (size_t i = 0; i < setup.ios.size(); ++i)
+    nodes.ios.push_back(plan.ios[i].fault.empty() ? makeIo(setup.ios[i], plan.ios[i]) : nullptr);
   if (can.hasSyncDevice) {
     simulation::NodeSetup node;
     node.id = kSyncDevice;
@@ -138,8 +173,43 @@ SimulatedNetwork::SimulatedNetwork(const bus::GroupSetup &setup)
       bus_.attach(*drive);
   for (const auto &encoder : nodes_.encoders)
     bus_.attach(*encoder);
+  for (const auto &io : nodes_.ios)
+    if (io != nullptr)
+      bus_.attach(*io);
   if (nodes_.syncDevice != nullptr)
     bus_.attach(*nodes_.syncDevice);
+  addWorlds(setup);
+}
+
+void SimulatedNetwork::addWorlds(const bus::GroupSetup &setup) {
+  for (size_t i = 0; i < nodes_.ios.size(); ++i) {
+    const std::shared_ptr<common::IoExchange> &exchange = setup.ios[i].exchange;
+    if (nodes_.ios[i] == nullptr || exchange == nullptr)
+      continue;
+    exchange->simulated.store(true, std::memory_order_relaxed);
+    worlds_.push_back({nodes_.ios[i].get(), exchange, planIo(setup.ios[i]).inputs,
+                       setup.ios[i].parameters.flag("wired")});
+  }
+}
+
+/// What has come to the nodes from their world since the last cycle is there now.
+void SimulatedNetwork::beginCycle() noexcept {
+  for (const IoWorld &world : worlds_) {
+    world.node->setSilent(world.exchange->pulled.load(std::memory_order_relaxed));
+    if (world.wired)
+      continue;
+    std::array<uint8_t, IoSide::kMostDigital + 2 * IoSide::kMostAnalog> bytes{};
+    const std::span<uint8_t> analog = std::span(bytes).subspan(IoSide::kMostDigital);
+    world.exchange->terminals.read(0, std::span(bytes).first(world.inputs.digital));
+    world.exchange->terminals.read(world.inputs.analogAt(),
+                                   analog.first(size_t{2} * world.inputs.analog));
+    for (uint32_t i = 0; i < world.inputs.digital; ++i)
+      world.node->setInput(i, bytes[i]);
+    for (size_t i = 0; i < world.inputs.analog; ++i)
+      world.node->setAnalogInput(
+          i, static_cast<int16_t>(analog[2 * i] | static_cast<uint16_t>(analog[2 * i + 1] << 8U)));
+  }
+  port_.beginCycle();
 }
 
 void SimulatedNetwork::bindData(size_t drive, void *data) {

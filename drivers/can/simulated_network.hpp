@@ -5,6 +5,7 @@
 #include "drivers/can/port/port.hpp"
 #include "drivers/can/simulation/drive402.hpp"
 #include "drivers/can/simulation/encoder406.hpp"
+#include "drivers/can/simulation/io401.hpp"
 #include "drivers/can/simulation/simulated_bus.hpp"
 #include "runtime/bus/group_setup.hpp"
 
@@ -21,6 +22,8 @@ struct SimulatedNodes {
   std::vector<std::unique_ptr<simulation::SimulatedDrive402>> drives;
   /// Those that are nodes; they have to be attached after the drives.
   std::vector<std::unique_ptr<simulation::SimulatedEncoder406>> encoders;
+  /// As configured; null: one that cannot be at the bus.
+  std::vector<std::unique_ptr<simulation::SimulatedIo401>> ios;
   std::unique_ptr<simulation::CanopenNode> syncDevice; ///< Null: there is none.
 };
 
@@ -37,7 +40,7 @@ public:
   [[nodiscard]] simulation::SimulatedBus &bus() { return bus_; }
   [[nodiscard]] simulation::SimulatedDrive402 &drive(size_t index) { return *nodes_.drives[index]; }
 
-  void beginCycle() noexcept override { port_.beginCycle(); }
+  void beginCycle() noexcept override;
   SendResult send(const Frame &frame, SendClass sendClass) noexcept override {
     return port_.send(frame, sendClass);
   }
@@ -46,9 +49,20 @@ public:
   [[nodiscard]] PortCounters counters() const noexcept override { return port_.counters(); }
 
 private:
+  /// An I/O device's world, which the program or its operator is.
+  struct IoWorld {
+    simulation::SimulatedIo401 *node = nullptr;
+    std::shared_ptr<common::IoExchange> exchange;
+    IoSide inputs;
+    bool wired = false; ///< The node's outputs are its world.
+  };
+
+  void addWorlds(const bus::GroupSetup &setup);
+
   simulation::SimulatedBus bus_;
   Port &port_;
   SimulatedNodes nodes_;
+  std::vector<IoWorld> worlds_;
 };
 
 } // namespace stride::can

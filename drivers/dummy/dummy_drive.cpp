@@ -414,7 +414,6 @@ std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup) {
 }
 
 uint64_t driveDataLayout() { return ::st::DummyDrive::DUMMY_DRIVE_SIM__layout__; }
-uint64_t groupDataLayout() { return 0; }
 
 bus::GroupSetup plainSetup(size_t drives, double cycleSeconds) {
   bus::GroupSetup setup(kSchema, cycleSeconds);

@@ -119,8 +119,6 @@ std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);
 
 /// The layout hash of DUMMY_DRIVE_SIM, as this runtime knows it.
 uint64_t driveDataLayout();
-/// There is none.
-uint64_t groupDataLayout();
 
 /// What a group of drives without any configuration is told.
 bus::GroupSetup plainSetup(size_t drives, double cycleSeconds = 0.01);

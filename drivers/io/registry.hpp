@@ -2,6 +2,7 @@
 #ifndef STRIDE_DRIVERS_IO_REGISTRY_HPP
 #define STRIDE_DRIVERS_IO_REGISTRY_HPP
 
+#include "drivers/can/io_schema.hpp"
 #include "drivers/io/shared_memory_schema.hpp"
 #include "drivers/io/simulated_schema.hpp"
 
@@ -12,13 +13,22 @@
 /// (io_drivers.hpp). A new one: a name here, and the include of its schema above.
 #define STRIDE_IO_DRIVERS(DRIVER)                                                                  \
   DRIVER(simulated)                                                                                \
-  DRIVER(shared_memory)
+  DRIVER(shared_memory)                                                                            \
+  DRIVER(can)
 
 namespace stride::drivers {
 
 #define STRIDE_SCHEMA_OF(space) &io::space::kSchema,
 inline constexpr std::array kIoSchemas = {STRIDE_IO_DRIVERS(STRIDE_SCHEMA_OF)};
 #undef STRIDE_SCHEMA_OF
+
+/// The kind with that name, or null.
+constexpr const io::IoSchema *findIoSchema(std::string_view name) {
+  for (const io::IoSchema *schema : kIoSchemas)
+    if (schema->name == name)
+      return schema;
+  return nullptr;
+}
 
 } // namespace stride::drivers
 

@@ -28,7 +28,12 @@ public:
     network_.publish(master());
   }
   void bindData(size_t drive, void *data) override { network_.bindDrive(drive, data); }
-  void bindGroupData(void *data) override { network_.bindRing(data); }
+  bool bindGroupData(void *data, uint64_t layout) override {
+    if (layout != ::st::SercosDrive::SERCOS_RING_SIM__layout__)
+      return false;
+    network_.bindRing(data);
+    return true;
+  }
 
 private:
   SimulatedNetwork &network_; ///< The driver's ring.
@@ -44,6 +49,5 @@ std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup) {
 }
 
 uint64_t driveDataLayout() { return ::st::SercosDrive::SERCOS_DRIVE_SIM__layout__; }
-uint64_t groupDataLayout() { return ::st::SercosDrive::SERCOS_RING_SIM__layout__; }
 
 } // namespace stride::sercos

@@ -61,9 +61,8 @@ private:
 /// The driver for one drive group of interface type "Sercos", on a simulated ring.
 std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);
 
-/// Of SERCOS_DRIVE_SIM and SERCOS_RING_SIM, as this runtime knows them.
+/// Of SERCOS_DRIVE_SIM, as this runtime knows it.
 uint64_t driveDataLayout();
-uint64_t groupDataLayout();
 
 } // namespace stride::sercos
 

@@ -64,8 +64,8 @@ SercosSetup sercosSetup(const bus::GroupSetup &setup) {
     DriveConfig config = driveConfig(setup.drives[i], plan.drives[i], setup.cycleSeconds);
     std::string fault = !plan.faults[i].empty() ? plan.faults[i] : plan.fault;
     const std::string file = setup.drives[i].parameters.text("parameters");
-    if (fault.empty() && !file.empty())
-      fault = readFile(setup.files, file, config);
+    if (fault.empty() && !file.empty() && setup.files)
+      fault = readFile(*setup.files, file, config);
     result.master.drives.push_back(std::move(config));
     result.faults.push_back(std::move(fault));
   }

@@ -17,7 +17,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 7;
+inline constexpr uint32_t kAbiVersion = 8;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -188,6 +188,10 @@ struct AxisGroupDesc {
   uint32_t encoderCount = 0;
   uint32_t firstParameter = 0; ///< Into the parameter table.
   uint32_t parameterCount = 0;
+  /// The structure in the state that driver and program share about the group (CAN:
+  /// SMC_CAN_COUNTERS), and its layout hash; 0: there is none.
+  uint64_t dataOffset = 0;
+  uint64_t dataLayout = 0;
 };
 
 /// What one technical unit of a drive or an axis is.

@@ -127,7 +127,7 @@ bool isSound(const StrideAppV1 &app, const TaskDesc &task) {
 
 bool isSound(const StrideAppV1 &app, const AxisGroupDesc &group) {
   return group.name != nullptr && group.driverName != nullptr && group.task < app.taskCount &&
-         group.groupOffset < app.stateSize &&
+         group.groupOffset < app.stateSize && group.dataOffset < app.stateSize &&
          fits(group.firstDrive, group.driveCount, app.driveCount) &&
          fits(group.firstEncoder, group.encoderCount, app.encoderCount) &&
          fits(group.firstParameter, group.parameterCount, app.parameterCount) &&

@@ -223,6 +223,9 @@ public:
   /// The drive is switched off and left alone; the next init begins its start-up anew.
   virtual void reset(size_t drive) = 0;
 
+  /// The group begins anew: so does what is at the bus besides its drives.
+  virtual void resetOthers() {}
+
   /// The state taken over by the last executeStart.
   [[nodiscard]] virtual DriveStatus status(size_t drive) const = 0;
 
@@ -262,8 +265,9 @@ public:
   /// there is none. Called before the first cycle and whenever the application has moved.
   virtual void bindData(size_t /*drive*/, void * /*data*/) {}
 
-  /// The same for the structure about the whole group (DriverSchema::groupData).
-  virtual void bindGroupData(void * /*data*/) {}
+  /// The same about the group (DriverSchema::groupData), with the layout that the application was
+  /// built with. FALSE: this driver knows another one, and leaves it alone.
+  virtual bool bindGroupData(void * /*data*/, uint64_t /*layout*/) { return true; }
 
   /// Whom it may talk to, before the first cycle; he lives as long as the driver is called.
   virtual void attach(DriverHost & /*host*/) {}

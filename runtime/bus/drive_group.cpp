@@ -182,6 +182,7 @@ void DriveGroup::stepReset() {
     for (size_t i = 0; i < axes_.size(); ++i)
       if (axes_[i]->bRealDrive != 0)
         restart(i, group_->bKeepRatioSettings != 0);
+    driver_->resetOthers();
     for (axis::EncoderRef *encoder : encoders_)
       if (encoder->bFed == 0)
         encoder->bValid = 0;

@@ -10,12 +10,13 @@
 
 namespace stride::bus {
 
-/// A variable that driver and program share about a drive (AXIS_REF.pMS leads there) or about a
-/// drive group.
+/// A variable that driver and program share about a drive (AXIS_REF.pMS leads there), or about an
+/// axis group.
 struct SharedData {
-  std::string_view type = {};   ///< In ST, with its library; empty: there is none.
-  std::string_view table = {};  ///< There is one for each drive with this table in stride.toml.
-  std::string_view suffix = {}; ///< Of its name, after that of the drive or of the group.
+  std::string_view type = {}; ///< In ST, with its library; empty: there is none.
+  /// There is one for each drive with this table in stride.toml; one for each axis group.
+  std::string_view table = {};
+  std::string_view suffix = {}; ///< Of its name, after that of the drive or the group.
   std::string_view what = {};   ///< For messages: "simulation of drive".
 };
 
@@ -25,7 +26,7 @@ struct DriverSchema {
   std::string_view name;          ///< The first word of InterfaceType.
   std::string_view interfaceType; ///< An InterfaceType of it, for messages.
   SharedData driveData = {};
-  SharedData groupData = {}; ///< There is one for each group: it needs no table.
+  SharedData groupData = {}; ///< See AxisDriver::bindGroupData.
   /// The bus has a SYNC every dwCycle: it starts the task on bSync of its axis group (waitSync).
   bool givesSync = false;
   bool records = false; ///< What passes the bus can be kept and repeated (GroupSetup::recording).

@@ -18,6 +18,7 @@ struct GroupFinding {
   std::string message; ///< What is wrong, in a sentence without a full stop.
   std::string label;   ///< Beside the section.
   std::string help;    ///< The way out; empty: there is none.
+  size_t io = kGroup;  ///< Not kGroup: it is about this I/O device of the group.
 };
 
 using GroupFindings = std::vector<GroupFinding>;

@@ -4,9 +4,12 @@
 
 #include "runtime/bus/driver_schema.hpp"
 #include "runtime/bus/plc_schema.hpp"
+#include "runtime/common/io_exchange.hpp"
 #include "runtime/common/setup_parameters.hpp"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +29,18 @@ struct EncoderSetup {
   std::string name;
   uint32_t id = 0; ///< wEncoderId.
   SetupParameters parameters;
+};
+
+/// An I/O device that is a node of the bus (IoSchema::bus).
+struct IoSetup {
+  std::string name;
+  uint32_t inputBytes = 0;
+  uint32_t outputBytes = 0;
+  std::vector<uint8_t> safeOutputs; ///< Of all its outputs; none: zeros.
+  SetupParameters parameters;
+  /// Where its bytes are exchanged; null: nobody wants them.
+  std::shared_ptr<common::IoExchange> exchange;
+  size_t device = 0; ///< Its place in the configuration.
 };
 
 /// What a driver's bus is made of.
@@ -64,13 +79,15 @@ struct GroupSetup {
   std::string bus;
   std::string interfaceType;
   BusKind kind = BusKind::Simulated;
-  BusRecording recording;  ///< As far as the driver can.
-  std::string files;       ///< The folder for the program's files.
+  BusRecording recording; ///< As far as the driver can.
+  /// The folder for files, in which parameters of drives may be; nothing: nobody reads files.
+  std::optional<std::string> files;
   double cycleSeconds = 0; ///< Of the group's task.
   SetupParameters busParameters;
   SetupParameters parameters;
   std::vector<DriveSetup> drives;
   std::vector<EncoderSetup> encoders;
+  std::vector<IoSetup> ios;
   const DriverSchema *schema;
 };
 

@@ -86,42 +86,6 @@ std::vector<uint32_t> tasksOnSync(const StrideAppV1 &app, uint32_t group) {
   return tasks;
 }
 
-const drivers::DriverEntry &driverOf(const AxisGroupDesc &group) {
-  const drivers::DriverEntry *driver = drivers::findDriver(group.driverName);
-  if (driver == nullptr)
-    throw app::Error(fmt::format("axis group '{}' asks for driver '{}', which this runtime does "
-                                 "not have; {}",
-                                 group.name, group.driverName, drivers::knownDrivers()));
-  return *driver;
-}
-
-/// Where a global variable of the compiler's is; null: nowhere.
-std::byte *globalNamed(const StrideAppV1 &app, std::string_view name, std::byte *state) noexcept {
-  if (name.empty())
-    return nullptr;
-  for (uint32_t i = 0; i < app.rootCount; ++i)
-    if (name == app.roots[i].name)
-      return state + app.roots[i].offset;
-  return nullptr;
-}
-
-/// The name of what driver and program share about a group; empty: nothing.
-std::string groupDataName(const StrideAppV1 &app, const AxisGroupDesc &group) {
-  const drivers::DriverEntry &driver = driverOf(group);
-  const bus::SharedData &shared = driver.schema->groupData;
-  if (shared.type.empty())
-    return {};
-  std::string name = std::string(group.name).append(shared.suffix);
-  for (uint32_t i = 0; i < app.rootCount; ++i)
-    if (name == app.roots[i].name &&
-        app.types[app.roots[i].type].layoutHash != driver.groupDataLayout())
-      throw app::Error(
-          fmt::format("the application was built with another layout of {} (axis group '{}') than "
-                      "this runtime has; build it again with this version of Stride",
-                      shared.type.substr(shared.type.find('.') + 1), group.name));
-  return name;
-}
-
 class AxisGroupHook final : public task::CycleHook, private task::Pacer, private bus::DriverHost {
 public:
   AxisGroupHook(const StrideAppV1 &app, uint32_t index, std::byte *state,
@@ -139,8 +103,11 @@ public:
       ids_.push_back(app.drives[group.firstDrive + i].driveId);
     }
     stopped_.resize(axes_.size());
-    groupDataName_ = groupDataName(app, group);
-    group_.driver().bindGroupData(globalNamed(app, groupDataName_, state));
+    if (!bindGroupData(app, state))
+      throw app::Error(fmt::format("the application was built with another layout of what the "
+                                   "driver '{}' shares with it (axis group '{}'); build it again "
+                                   "with this version of Stride",
+                                   group.driverName, name_));
     group_.driver().attach(*this);
     tasks.addHook(group.task, *this);
     if (const TaskDesc &task = app.tasks[group.task]; task.sync == index && task.intervalNs > 0)
@@ -208,13 +175,13 @@ public:
     const AxisGroupDesc &group = app.axisGroups[index_];
     ref_ = &groupOf(app, state, index_);
     group_.rebind(*ref_);
+    bindGroupData(app, state);
     for (uint32_t i = 0; i < group.driveCount; ++i) {
       axes_[i] = &axisOf(app, state, i);
       group_.rebind(i, *axes_[i]);
     }
     for (uint32_t i = 0; i < group.encoderCount; ++i)
       group_.rebind(i, encoderOf(app, state, i));
-    group_.driver().bindGroupData(globalNamed(app, groupDataName_, state));
     bootupErrorOffset_ = app.bootupErrorOffset;
     bootupErrorLength_ = app.bootupErrorLength;
   }
@@ -248,6 +215,11 @@ private:
     int64_t now = realClock_ ? task::monotonicNs() : ctx.cycleStartNs;
     inputs_->pass(now);
     return now;
+  }
+  bool bindGroupData(const StrideAppV1 &app, std::byte *state) noexcept {
+    const AxisGroupDesc &group = app.axisGroups[index_];
+    return group.dataLayout == 0 ||
+           group_.driver().bindGroupData(&at<BYTE>(state, group.dataOffset), group.dataLayout);
   }
   axis::AxisRef &axisOf(const StrideAppV1 &app, std::byte *state, uint32_t drive) const {
     const uint32_t first = app.axisGroups[index_].firstDrive;
@@ -318,13 +290,21 @@ private:
   std::vector<axis::AxisRef *> axes_;
   std::vector<std::string> names_; ///< Of the drives.
   std::vector<uint32_t> ids_;
-  std::string groupDataName_; ///< Of what program and driver share about the group.
   std::vector<bool> stopped_; ///< By applicationStopped(), so that it is no error of the program.
   uint64_t bootupErrorOffset_;
   uint32_t bootupErrorLength_; ///< 0: the application has no g_strBootupError
   bus::DriveGroup group_;
   bool shown_ = false;
 };
+
+const drivers::DriverEntry &driverOf(const AxisGroupDesc &group) {
+  const drivers::DriverEntry *driver = drivers::findDriver(group.driverName);
+  if (driver == nullptr)
+    throw app::Error(fmt::format("axis group '{}' asks for driver '{}', which this runtime does "
+                                 "not have; {}",
+                                 group.name, group.driverName, drivers::knownDrivers()));
+  return *driver;
+}
 
 /// Lets AXIS_REF.pMS lead to what the driver and the program share about the drive.
 void bindData(const DriveDesc &drive, const drivers::DriverEntry &driver, std::byte *state) {
@@ -348,12 +328,6 @@ std::string ownFile(const std::string &file, const StrideAppV1 &app, const AxisG
   return path.string();
 }
 
-std::string filesFolder(const StrideAppV1 &app, const std::string &given) {
-  if (!given.empty())
-    return given;
-  return app.filesRoot != nullptr ? app.filesRoot : "files";
-}
-
 void checkRecording(const StrideAppV1 &app, const bus::BusRecording &recording) {
   if (recording.log.empty() && recording.replay.empty())
     return;
@@ -373,7 +347,8 @@ app::RuntimeLayouts runtimeLayouts() {
 
 std::vector<std::unique_ptr<task::CycleHook>>
 addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs,
-              bus::BusKind buses, const bus::BusRecording &recording, const std::string &files) {
+              bus::BusKind buses, const bus::BusRecording &recording, const std::string &files,
+              const IoExchanges &exchanges) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
@@ -383,13 +358,27 @@ addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPo
     const drivers::DriverEntry &driver = driverOf(group);
     bus::GroupSetup setup = groupSetup(app, group, *driver.schema);
     setup.kind = buses;
-    setup.files = filesFolder(app, files);
+    setup.files = files;
     setup.recording = {ownFile(recording.log, app, group), ownFile(recording.replay, app, group)};
+    for (bus::IoSetup &io : setup.ios)
+      io.exchange = exchanges[io.device];
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(), driver.make(setup),
                                                     setup.cycleSeconds, inputs, tasks, errors));
   }
+  return hooks;
+}
+
+std::vector<std::unique_ptr<task::CycleHook>>
+addDevices(const app::Application &application, task::TaskSet &tasks, InputPort &inputs,
+           bus::BusKind buses, const bus::BusRecording &recording, const std::string &files) {
+  const IoExchanges exchanges = ioExchanges(application.description());
+  auto hooks = addIoDevices(application, tasks, inputs, IoPlace::Alone, exchanges);
+  for (auto &hook : addAxisGroups(application, tasks, inputs, buses, recording, files, exchanges))
+    hooks.push_back(std::move(hook));
+  for (auto &hook : addIoDevices(application, tasks, inputs, IoPlace::OnBus, exchanges))
+    hooks.push_back(std::move(hook));
   return hooks;
 }
 

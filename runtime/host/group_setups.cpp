@@ -1,5 +1,8 @@
 #include "runtime/host/group_setups.hpp"
 
+#include "drivers/io/registry.hpp"
+#include "runtime/common/text.hpp"
+
 namespace stride::host {
 namespace {
 
@@ -8,6 +11,28 @@ void addParameters(const StrideAppV1 &app, uint32_t first, uint32_t count,
   for (uint32_t i = 0; i < count; ++i) {
     const ParameterDesc &parameter = app.parameters[first + i];
     to.add({parameter.name, parameter.text != nullptr ? parameter.text : "", parameter.number});
+  }
+}
+
+/// I/O devices that are nodes of the group's bus.
+void addIos(const StrideAppV1 &app, const AxisGroupDesc &group, bus::GroupSetup &setup) {
+  for (uint32_t i = 0; i < app.ioDeviceCount; ++i) {
+    const IoDeviceDesc &desc = app.ioDevices[i];
+    const io::IoSchema *schema = drivers::findIoSchema(desc.driverName);
+    if (schema == nullptr || schema->bus != setup.schema->name)
+      continue;
+    bus::IoSetup io;
+    io.name = desc.name;
+    io.inputBytes = desc.inputCount;
+    io.outputBytes = desc.outputCount;
+    if (desc.safeOutputs != nullptr)
+      io.safeOutputs.assign(desc.safeOutputs, desc.safeOutputs + desc.outputCount);
+    io.device = i;
+    io.parameters =
+        bus::SetupParameters({{}, schema->parameters, schema->tables}, setup.cycleSeconds);
+    addParameters(app, desc.firstParameter, desc.parameterCount, io.parameters);
+    if (common::lowerCase(io.parameters.text("axis_group")) == common::lowerCase(group.name))
+      setup.ios.push_back(std::move(io));
   }
 }
 
@@ -41,6 +66,7 @@ bus::GroupSetup groupSetup(const StrideAppV1 &app, const AxisGroupDesc &group,
     addParameters(app, encoder.firstParameter, encoder.parameterCount,
                   setup.addEncoder(encoder.name, encoder.encoderId).parameters);
   }
+  addIos(app, group, setup);
   return setup;
 }
 

@@ -1,7 +1,6 @@
 #include "runtime/host/instance.hpp"
 
 #include "runtime/host/axis_hooks.hpp"
-#include "runtime/host/io_hooks.hpp"
 
 #include <fmt/format.h>
 
@@ -35,10 +34,9 @@ void Instance::initialise() {
     retain_->addHooks(tasks_);
   }
   application_->settle();
-  for (std::unique_ptr<task::CycleHook> &hook : addIoDevices(*application_, tasks_, *inputs_))
-    hooks_.push_back(std::move(hook));
   for (std::unique_ptr<task::CycleHook> &hook :
-       addAxisGroups(*application_, tasks_, *inputs_, buses_, recording_, filesFolder_))
+       addDevices(*application_, tasks_, *inputs_, buses_, recording_,
+                  SystemServices::filesFolder(app(), filesFolder_)))
     hooks_.push_back(std::move(hook));
 }
 

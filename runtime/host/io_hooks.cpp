@@ -42,12 +42,14 @@ const drivers::IoDriverEntry &driverOf(const IoDeviceDesc &desc) {
 }
 
 io::IoSettings settingsOf(const StrideAppV1 &app, const IoDeviceDesc &desc,
-                          const io::IoSchema &schema) {
+                          const io::IoSchema &schema,
+                          std::shared_ptr<common::IoExchange> exchange) {
   io::IoSettings settings;
   settings.name = desc.name;
+  settings.exchange = std::move(exchange);
   settings.inputBytes = desc.inputCount;
   settings.outputBytes = desc.outputCount;
-  settings.parameters = common::SetupParameters({{}, schema.parameters});
+  settings.parameters = common::SetupParameters({{}, schema.parameters, schema.tables});
   for (uint32_t i = 0; i < desc.parameterCount; ++i) {
     const ParameterDesc &parameter = app.parameters[desc.firstParameter + i];
     settings.parameters.add(
@@ -57,20 +59,26 @@ io::IoSettings settingsOf(const StrideAppV1 &app, const IoDeviceDesc &desc,
 }
 
 std::unique_ptr<io::IoDriver> makeDriver(const StrideAppV1 &app, const IoDeviceDesc &desc,
-                                         const drivers::IoDriverEntry &driver, bool replays) {
+                                         const drivers::IoDriverEntry &driver, bool replays,
+                                         std::shared_ptr<common::IoExchange> exchange) {
   if (driver.schema->external && replays)
     return std::make_unique<RecordedIo>();
-  return driver.make(settingsOf(app, desc, *driver.schema));
+  return driver.make(settingsOf(app, desc, *driver.schema, std::move(exchange)));
 }
 
-std::shared_ptr<Devices> openDevices(const StrideAppV1 &app, bool replays) {
+bool isOnBus(const IoDeviceDesc &desc) { return !driverOf(desc).schema->bus.empty(); }
+
+std::shared_ptr<Devices> openDevices(const StrideAppV1 &app, bool replays, IoPlace place,
+                                     const IoExchanges &exchanges) {
   auto devices = std::make_shared<Devices>();
   for (uint32_t i = 0; i < app.ioDeviceCount; ++i) {
     const IoDeviceDesc &desc = app.ioDevices[i];
+    if (isOnBus(desc) != (place == IoPlace::OnBus))
+      continue;
     auto device = std::make_unique<io::IoDevice>();
     device->name = desc.name;
     const drivers::IoDriverEntry &driver = driverOf(desc);
-    device->driver = makeDriver(app, desc, driver, replays);
+    device->driver = makeDriver(app, desc, driver, replays, exchanges[i]);
     device->external = driver.schema->external;
     device->index = i;
     device->inputBytes = desc.inputCount;
@@ -108,13 +116,26 @@ private:
 
 } // namespace
 
-std::vector<std::unique_ptr<task::CycleHook>>
-addIoDevices(const app::Application &application, task::TaskSet &tasks, InputPort &inputs) {
+IoExchanges ioExchanges(const StrideAppV1 &app) {
+  IoExchanges exchanges;
+  for (uint32_t i = 0; i < app.ioDeviceCount; ++i) {
+    const IoDeviceDesc &desc = app.ioDevices[i];
+    exchanges.push_back(
+        isOnBus(desc) ? std::make_shared<common::IoExchange>(desc.inputCount, desc.outputCount)
+                      : nullptr);
+  }
+  return exchanges;
+}
+
+std::vector<std::unique_ptr<task::CycleHook>> addIoDevices(const app::Application &application,
+                                                           task::TaskSet &tasks, InputPort &inputs,
+                                                           IoPlace place,
+                                                           const IoExchanges &exchanges) {
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const StrideAppV1 &app = application.description();
-  if (app.ioDeviceCount == 0)
+  const std::shared_ptr<Devices> devices = openDevices(app, inputs.replays(), place, exchanges);
+  if (devices->empty())
     return hooks;
-  const std::shared_ptr<Devices> devices = openDevices(app, inputs.replays());
   for (uint32_t task = 0; task < app.taskCount; ++task) {
     hooks.push_back(std::make_unique<DeviceHook>(app, application.state(), task, devices, inputs));
     tasks.addHook(task, *hooks.back());

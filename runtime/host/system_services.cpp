@@ -58,12 +58,15 @@ SystemServices::SystemServices(const StrideAppV1 &app, const std::byte *state, b
 
 SystemServices::~SystemServices() = default;
 
+std::string SystemServices::filesFolder(const StrideAppV1 &app, const std::string &folder) {
+  if (!folder.empty())
+    return folder;
+  return app.filesRoot != nullptr ? app.filesRoot : system::FileSettings().root;
+}
+
 void SystemServices::start(const StrideAppV1 &app, const std::string &folder, InputPort &inputs) {
   system::FileSettings settings;
-  if (!folder.empty())
-    settings.root = folder;
-  else if (app.filesRoot != nullptr)
-    settings.root = app.filesRoot;
+  settings.root = filesFolder(app, folder);
   settings.anywhere = app.filesAnywhere != 0;
   settings.virtualTime = !realClock_;
   settings.delayCycles = app.filesDelay;

@@ -26,6 +26,8 @@ public:
   SystemServices &operator=(const SystemServices &) = delete;
   ~SystemServices();
 
+  /// The folder for the program's files: `folder`, or if that is empty the application's own.
+  static std::string filesFolder(const StrideAppV1 &app, const std::string &folder);
   /// Before the first cycle; `folder`: for the program's files, empty: the application's own.
   /// `inputs` lives longer.
   void start(const StrideAppV1 &app, const std::string &folder, InputPort &inputs);

@@ -6,7 +6,6 @@
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/exit_code.hpp"
 #include "runtime/host/instance.hpp"
-#include "runtime/host/io_hooks.hpp"
 #include "runtime/host/output.hpp"
 #include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/system_services.hpp"
@@ -148,8 +147,8 @@ private:
 
     TestTasks tasks(description, state, result_);
     tasks.setSystem(system_.cycleApi());
-    const auto devices = addIoDevices(application_, tasks, inputs_);
-    const auto axes = addAxisGroups(application_, tasks, inputs_, bus::BusKind::Simulated, {});
+    const auto devices = addDevices(application_, tasks, inputs_, bus::BusKind::Simulated, {},
+                                    SystemServices::filesFolder(description, {}));
     for (int64_t timeNs = 0;; timeNs += cycleNs) {
       if (done != nullptr && timeNs >= plan_.timeoutNs) {
         fail("timeout",

@@ -14,7 +14,11 @@ struct IoSchema {
   /// What it gives does not follow from what the program does: it belongs into a recording, and a
   /// replay needs no device.
   bool external = true;
-  std::span<const common::Parameter> parameters = {}; ///< Besides those of every device.
+  std::span<const common::Parameter> parameters = {};  ///< Besides those of every device.
+  std::span<const common::ParameterTable> tables = {}; ///< Below it, by names of their own.
+  /// Not empty: such a device is a node of an axis group with this driver, which its parameter
+  /// `axis_group` names; that driver exchanges its bytes (common::IoExchange).
+  std::string_view bus = {};
 };
 
 } // namespace stride::io

@@ -116,15 +116,19 @@ IoDeviceState &ImageHook::stateOf(const IoDevice &device) const {
 void ImageHook::watch(Ctx &ctx, IoDevice &device) {
   IoDeviceState &state = stateOf(device);
   const bool fault = __atomic_load_n(&state.bFault, __ATOMIC_RELAXED) != 0;
-  bool works = device.driver->works(ctx.cycleStartNs);
+  const bool simulates = device.driver->simulateFault(fault);
+  enum Condition : uint8_t { kLost, kWorks, kStarts };
+  Condition condition = device.driver->works(ctx.cycleStartNs) ? kWorks
+                        : device.driver->starts()              ? kStarts
+                                                               : kLost;
   if (device.external)
-    inputs_->pass(&works, sizeof works);
-  const bool lost = fault || !works;
+    inputs_->pass(&condition, sizeof condition);
+  const bool lost = (fault && !simulates) || condition != kWorks;
   const bool before = device.lost.exchange(lost, std::memory_order_relaxed);
   if (lost == before)
     return;
   __atomic_store_n(&state.bLost, static_cast<BOOL>(lost), __ATOMIC_RELAXED);
-  if (!lost)
+  if (!lost || condition == kStarts)
     return;
   __atomic_fetch_add(&state.udiLosses, 1U, __ATOMIC_RELAXED);
   device.losses.fetch_add(1, std::memory_order_relaxed);
@@ -146,15 +150,20 @@ void ImageHook::beforePous(Ctx &ctx) {
     if (leads_)
       watch(ctx, *device);
   }
-  for (const Part &part : parts_) {
+  for (Part &part : parts_) {
     if (part.output)
       continue;
     const IoDeviceDesc &desc = app_->ioDevices[part.device->index];
     BYTE *to = image(part);
-    if (!part.device->lost.load(std::memory_order_relaxed)) {
+    const bool lost = part.device->lost.load(std::memory_order_relaxed);
+    // Safe values of a loss are nobody's.
+    if (!part.safe)
+      part.device->driver->sense(part.deviceByte, {to, part.count});
+    part.safe = lost && desc.safeInputs != nullptr;
+    if (!lost) {
       if (read(part))
         copyWhole(to, buffer_.data(), part.count);
-    } else if (desc.safeInputs != nullptr) {
+    } else if (part.safe) {
       copyWhole(to, desc.safeInputs + part.deviceByte, part.count);
     }
   }

@@ -76,6 +76,7 @@ private:
     uint32_t imageByte;
     uint32_t deviceByte;
     uint32_t count;
+    bool safe = false; ///< The image has the safe values of inputs.
   };
   std::vector<Part> partsIn(const StrideAppV1 &app) const;
   BYTE *image(const Part &part) const;

@@ -1,6 +1,7 @@
-// Frames on a CAN bus with two drives, whatever they are: through their start-up and in operation.
-// No drive that nobody has switched on is told to operate.
+// Frames on a CAN bus with two drives and an I/O device, whatever they are: through their start-up
+// and in operation. No drive that nobody has switched on is told to operate.
 #include "drivers/can/can_driver.hpp"
+#include "drivers/can/io_schema.hpp"
 #include "drivers/can/schema.hpp"
 
 #include <algorithm>
@@ -58,6 +59,15 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   stride::bus::GroupSetup setup(kSchema, 0.01);
   setup.addDrive("X", 3).parameters.add({"wControlType", "", 4});
   setup.addDrive("Y", 4).parameters.add({"probe_inputs", "", 15});
+  stride::bus::IoSetup &io = setup.ios.emplace_back();
+  io.name = "Io";
+  io.inputBytes = 5;
+  io.outputBytes = 2;
+  io.parameters = stride::bus::SetupParameters(
+      {{}, stride::io::can::kSchema.parameters, stride::io::can::kSchema.tables});
+  io.parameters.add({"node", "", 5});
+  io.parameters.add({"analog_inputs", "", 1});
+  io.exchange = std::make_shared<stride::common::IoExchange>(io.inputBytes, io.outputBytes);
   auto owned = std::make_unique<BytesPort>(data, size);
   const BytesPort *port = owned.get();
   const std::unique_ptr<stride::bus::AxisDriver> driver =

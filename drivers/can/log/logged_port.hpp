@@ -37,6 +37,7 @@ public:
   size_t receive(std::span<Received> frames) noexcept override { return recorded_.receive(frames); }
   bool wait(int64_t monotonicNs) noexcept override { return recorded_.wait(monotonicNs); }
   [[nodiscard]] int64_t monotonicNs() const noexcept override { return recorded_.monotonicNs(); }
+  [[nodiscard]] int64_t utcNs() const noexcept override { return recorded_.utcNs(); }
   [[nodiscard]] size_t unconfirmed() const noexcept override { return recorded_.unconfirmed(); }
   [[nodiscard]] ControllerState state() const noexcept override { return recorded_.state(); }
   [[nodiscard]] std::string_view problem() const noexcept override { return recorded_.problem(); }

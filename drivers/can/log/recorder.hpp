@@ -50,6 +50,7 @@ public:
   size_t receive(std::span<Received> frames) noexcept override;
   bool wait(int64_t monotonicNs) noexcept override { return port_.wait(monotonicNs); }
   [[nodiscard]] int64_t monotonicNs() const noexcept override { return port_.monotonicNs(); }
+  [[nodiscard]] int64_t utcNs() const noexcept override { return port_.utcNs(); }
   [[nodiscard]] size_t unconfirmed() const noexcept override { return port_.unconfirmed(); }
   [[nodiscard]] ControllerState state() const noexcept override { return port_.state(); }
   [[nodiscard]] std::string_view problem() const noexcept override { return port_.problem(); }

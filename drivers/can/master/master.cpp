@@ -1,6 +1,7 @@
 #include "drivers/can/master/master.hpp"
 
 #include "drivers/can/master/frames.hpp"
+#include "drivers/can/plan/bus_load.hpp"
 
 #include <algorithm>
 
@@ -13,7 +14,7 @@ constexpr uint32_t kMostLate = 2;
 constexpr size_t kReserve = 4;
 
 size_t plannedFrames(const MasterConfig &config) {
-  size_t frames = 1 + config.sdoPerCycle;
+  size_t frames = 1 + std::max(config.sdoPerCycle, kMostSdosPerCycle);
   for (const NodeConfig &node : config.nodes)
     frames += node.plan.tpdoCount + 2U; // heartbeat, EMCY
   return frames;
@@ -27,10 +28,12 @@ bool isLost(ControllerState state) {
 
 Master::Master(const MasterConfig &config, std::unique_ptr<Port> port)
     : config_(config), port_(std::move(port)), frames_(kReserve * plannedFrames(config)),
-      heartbeatCycles_(cyclesOf(config.heartbeat, config.cycle)) {
+      heartbeatCycles_(cyclesOf(config.heartbeat, config.cycle)),
+      timeCycles_(config.timeStamp > 0 ? cyclesOf(config.timeStamp, config.cycle) : 0) {
   nodes_.reserve(config.nodes.size());
   for (const NodeConfig &node : config.nodes) {
     nodes_.emplace_back(node);
+    cyclicBits_.push_back(cyclicBits(node.plan));
     addRoutes(static_cast<uint8_t>(nodes_.size() - 1));
   }
   routes_[kSyncCobId] = {Kind::Sync};
@@ -48,12 +51,17 @@ void Master::addRoutes(uint8_t index) {
 void Master::executeStart() {
   port_->beginCycle();
   watchBus();
-  if (config_.givesSync && !isLost(state_))
-    (void)send(makeFrame(kSyncCobId, 0), SendClass::Process);
   for (Node &node : nodes_)
     node.beginReceive();
   syncs_ = 0;
-  receiveAll();
+  // Who waits for what nodes say at SYNC must not take what they said at the one before for it.
+  const bool waits = config_.readWaitNs > 0;
+  if (waits)
+    receiveAll();
+  if (config_.givesSync && !isLost(state_))
+    giveSync();
+  if (!waits)
+    receiveAll();
   judgeSync();
   judgeSetValues();
   awaitPdos();
@@ -66,6 +74,12 @@ void Master::executeStart() {
   if (duplicate)
     for (Node &node : nodes_)
       node.lose(NodeLoss::Duplicate, news_);
+}
+
+void Master::giveSync() {
+  (void)send(makeFrame(kSyncCobId, 0), SendClass::Process);
+  for (Node &node : nodes_)
+    node.syncPassed();
 }
 
 void Master::watchBus() {
@@ -119,11 +133,12 @@ void Master::awaitPdos() {
   const int64_t now = config_.readWaitNs > 0 && !isLost(state_) ? port_->monotonicNs() : -1;
   if (now < 0)
     return;
+  const int64_t end = now + config_.readWaitNs;
   for (size_t room = frames_.size(); lacksPdos();) {
-    const size_t count = room > 0 && port_->wait(now + config_.readWaitNs)
-                             ? port_->receive(std::span(frames_).first(room))
-                             : 0;
-    if (count == 0) {
+    const bool any = room > 0 && port_->wait(end);
+    const size_t count = any ? port_->receive(std::span(frames_).first(room)) : 0;
+    // What comes may be nobody's: the port's own frames, which have left it.
+    if (!any || (count == 0 && port_->monotonicNs() >= end)) {
       ++counters_.readsLate;
       return;
     }
@@ -134,6 +149,7 @@ void Master::awaitPdos() {
 }
 
 void Master::take(const Frame &frame) {
+  ++counters_.framesReceived;
   if (frame.id > Frame::kLastId || frame.length > Frame::kMostBytes || frame.remote)
     return;
   const Route route = routes_[frame.id];
@@ -154,6 +170,8 @@ void Master::take(const Frame &frame) {
     break;
   case Kind::Sync:
     ++syncs_;
+    for (Node &node : nodes_)
+      node.syncPassed();
     break;
   }
 }
@@ -201,6 +219,7 @@ uint32_t Master::awaitSync(int64_t monotonicNs) {
 bool Master::send(const Frame &frame, SendClass sendClass) {
   const SendResult result = port_->send(frame, sendClass);
   counters_.sendQueueFull += result == SendResult::QueueFull ? 1 : 0;
+  counters_.framesSent += result == SendResult::Sent ? 1 : 0;
   return result == SendResult::Sent;
 }
 
@@ -212,6 +231,7 @@ void Master::executeEnd() {
   sendPdos();
   sendCommands();
   sendHeartbeat();
+  sendTime();
   sendSdos();
 }
 
@@ -245,9 +265,48 @@ void Master::sendHeartbeat() {
     toHeartbeat_ = heartbeatCycles_ - 1;
 }
 
+/// TIME_OF_DAY: milliseconds of the day and days since 1984-01-01. [CiA 301] A bus without a clock
+/// of that kind begins there with the run.
+void Master::sendTime() {
+  ++cycles_;
+  if (timeCycles_ == 0)
+    return;
+  if (toTime_ > 0) {
+    --toTime_;
+    return;
+  }
+  constexpr int64_t kSecondMs = 1000;
+  constexpr int64_t kDayMs = 86'400 * kSecondMs;
+  constexpr int64_t kBeginDay = 5113; // of 1984, since 1970
+  const int64_t utc = port_->utcNs();
+  const int64_t ms =
+      utc >= 0
+          ? utc / 1'000'000
+          : kBeginDay * kDayMs +
+                static_cast<int64_t>(static_cast<double>(cycles_ - 1) * config_.cycle * 1e3 + 0.5);
+  Frame frame = makeFrame(kTimeId, 6);
+  writeNumber(frame, 0, 4, static_cast<uint32_t>(ms % kDayMs));
+  writeNumber(frame, 4, 2, static_cast<uint32_t>(std::max<int64_t>(ms / kDayMs - kBeginDay, 0)));
+  if (send(frame, SendClass::Service))
+    toTime_ = timeCycles_ - 1;
+}
+
+/// What is left of the cycle beside SYNC and the PDOs of the nodes that have started.
+uint32_t Master::roomForSdos() const {
+  uint64_t bits = kSyncBits;
+  bool all = true;
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    bits += nodes_[i].started() ? cyclicBits_[i] : 0;
+    all = all && nodes_[i].started();
+  }
+  if (all || config_.bitsPerCycle == 0)
+    return config_.sdoPerCycle;
+  return std::max(config_.sdoPerCycle, sdosThatFit(config_.bitsPerCycle, bits));
+}
+
 /// As many as the bus has room for; each node in its turn.
 void Master::sendSdos() {
-  uint32_t room = config_.sdoPerCycle;
+  uint32_t room = roomForSdos();
   size_t idle = 0; // nodes in a row without a question
   while (room > 0 && idle < nodes_.size()) {
     SdoClient &sdo = nodes_[nextSdo_].sdo();

@@ -19,9 +19,13 @@ struct MasterConfig {
   std::vector<NodeConfig> nodes;
   double cycle = 0.001;     ///< [s]
   double heartbeat = 0.1;   ///< The master's own. [s]
+  double timeStamp = 0;     ///< Period of its time stamps; 0: none. [s]
   uint8_t node = 126;       ///< The master's number.
-  uint32_t sdoPerCycle = 1; ///< SDO frames that go out in a cycle at most.
-  bool givesSync = true;    ///< Else a node does.
+  uint32_t sdoPerCycle = 1; ///< SDO frames that go out in a cycle at most …
+  /// … but while nodes start up, and so send and are sent no PDOs yet, as many as a bus with that
+  /// many bits in a cycle has room for; 0: not known.
+  uint64_t bitsPerCycle = 0;
+  bool givesSync = true; ///< Else a node does.
   /// So long a cycle waits at most for the PDOs that SYNC has asked for; 0: they are those of the
   /// SYNC before. [ns]
   int64_t readWaitNs = 0;
@@ -36,6 +40,8 @@ struct MasterCounters {
   uint64_t setValuesLate = 0; ///< Cycles whose PDOs had not all gone out when the next one began.
   uint64_t readsLate = 0;     ///< Cycles that have waited for PDOs in vain.
   uint64_t overloads = 0;     ///< Cycles with more frames than are read in one.
+  uint64_t framesSent = 0;
+  uint64_t framesReceived = 0;
 };
 
 class Master {
@@ -66,6 +72,7 @@ public:
   [[nodiscard]] Port &port() { return *port_; }
   [[nodiscard]] const Port &port() const { return *port_; }
 
+  [[nodiscard]] ControllerState busState() const { return state_; }
   /// The bus is off, or the interface is down.
   [[nodiscard]] bool busLost() const {
     return state_ == ControllerState::BusOff || state_ == ControllerState::Down;
@@ -83,6 +90,7 @@ private:
   };
 
   void addRoutes(uint8_t index);
+  void giveSync();
   void watchBus();
   void receiveAll();
   void awaitPdos();
@@ -94,12 +102,15 @@ private:
   void sendPdos();
   void sendCommands();
   void sendHeartbeat();
+  void sendTime();
   void sendSdos();
+  [[nodiscard]] uint32_t roomForSdos() const;
 
   MasterConfig config_;
   std::unique_ptr<Port> port_;
   News news_;
   std::vector<Node> nodes_;
+  std::vector<uint32_t> cyclicBits_; ///< Of each node's synchronous PDOs.
   std::array<Route, Frame::kLastId + 1> routes_{};
   std::vector<Received> frames_; ///< Of a cycle.
   size_t early_ = 0;             ///< Frames that have come while SYNC was awaited.
@@ -107,6 +118,9 @@ private:
   uint64_t dropped_ = 0;
   uint32_t heartbeatCycles_;
   uint32_t toHeartbeat_ = 0;
+  uint32_t timeCycles_; ///< Of the time stamps; 0: there are none.
+  uint32_t toTime_ = 0;
+  uint64_t cycles_ = 0;      ///< Since the beginning.
   uint32_t syncs_ = 0;       ///< In this cycle.
   uint32_t lateInRow_ = 0;   ///< Cycles whose set values were late.
   uint32_t missedInRow_ = 0; ///< Cycles without SYNC.

@@ -14,8 +14,9 @@ constexpr uint32_t kMostFailedSends = 2;
 
 uint8_t placeBit(size_t place) { return static_cast<uint8_t>(1U << place); }
 
-/// The TPDOs without which nothing is known of a drive.
-uint8_t neededPdos(const DrivePlan &plan) {
+/// The TPDOs without which nothing is known of a node.
+uint8_t neededPdos(const NodeConfig &config) {
+  const DrivePlan &plan = config.plan;
   uint8_t needed = 0;
   for (size_t i = 0; i < plan.tpdoCount; ++i) {
     const Pdo &pdo = plan.tpdos[i];
@@ -23,7 +24,7 @@ uint8_t neededPdos(const DrivePlan &plan) {
         std::any_of(pdo.mapped().begin(), pdo.mapped().end(), [](const PdoEntry &entry) {
           return signalOf(entry.object) == Signal::Statusword;
         });
-    if (pdo.synchronous() || state)
+    if (pdo.synchronous() || state || config.kind == NodeConfig::Kind::Io)
       needed = needed | placeBit(i);
   }
   return needed;
@@ -46,16 +47,48 @@ Node::Node(const NodeConfig &config)
     : config_(config), sdo_(config.plan.node, cyclesOf(config.sdoTimeout, config.cycle)),
       supervision_(config.plan.node), startUp_(config), drive_(config.drive, config.plan),
       parameters_(config.parameters), refreshCycles_(cyclesOf(kRefresh, config.cycle)),
-      needed_(neededPdos(config.plan)) {}
+      needed_(neededPdos(config)) {}
+
+/// FALSE: the frame has another length than it should.
+bool Node::takeOver(size_t place, const Frame &frame) {
+  const Pdo &pdo = config_.plan.tpdos[place];
+  if (!isIo())
+    return decode(pdo, frame, signals_);
+  if (frame.length != pdo.length())
+    return false;
+  if (config_.io.exchange != nullptr)
+    config_.io.exchange->inputs.write(config_.io.tpdoAt[place], frame.bytes());
+  return true;
+}
+
+Frame Node::rpdoFrame(size_t place) const {
+  const Pdo &pdo = config_.plan.rpdos[place];
+  if (!isIo())
+    return encode(pdo, signals_);
+  Frame frame = makeFrame(pdo.cobId, pdo.length());
+  if (config_.io.exchange != nullptr)
+    config_.io.exchange->outputs.read(config_.io.rpdoAt[place],
+                                      std::span(frame.data).first(frame.length));
+  return frame;
+}
+
+void Node::showIo() noexcept {
+  if (!isIo() || config_.io.exchange == nullptr)
+    return;
+  const bool works = communication();
+  if (works)
+    config_.io.exchange->begun.store(true, std::memory_order_relaxed);
+  config_.io.exchange->works.store(works, std::memory_order_release);
+}
 
 void Node::tpdo(size_t place, const Frame &frame) {
-  const Pdo &pdo = config_.plan.tpdos[place];
-  if (!decode(pdo, frame, signals_)) {
+  if (!takeOver(place, frame)) {
     wrongLength_ = std::min(wrongLength_ + 1, kMostWrong);
     return;
   }
   wrongLength_ = 0;
   seen_ = seen_ | placeBit(place);
+  atSync_[place] = true;
   if (arrived_[place] < UINT8_MAX)
     ++arrived_[place];
 }
@@ -128,7 +161,7 @@ void Node::countPdos(uint32_t syncs) {
 
 bool Node::pdosComplete() const {
   for (size_t i = 0; i < config_.plan.tpdoCount; ++i)
-    if (config_.plan.tpdos[i].synchronous() && arrived_[i] == 0)
+    if (config_.plan.tpdos[i].synchronous() && !atSync_[i])
       return false;
   return true;
 }
@@ -186,7 +219,7 @@ void Node::makePdos() {
   for (size_t i = 0; i < config_.plan.rpdoCount; ++i) {
     const Pdo &pdo = config_.plan.rpdos[i];
     Rpdo &one = rpdos_[i];
-    one.frame = encode(pdo, signals_);
+    one.frame = rpdoFrame(i);
     if (one.refresh > 0)
       --one.refresh;
     one.due = pdo.synchronous() || !one.known || one.frame != one.last || one.refresh == 0;
@@ -254,6 +287,10 @@ void Node::sayLacks(News &news) const {
              " has no consumer heartbeat (1016h): it does not notice when this program ends");
   if (startUp_.lacksHeartbeat())
     news.say("node ", number, " has no heartbeat (1017h): only its PDOs show that it is there");
+  if (startUp_.lacksErrorValues())
+    news.say("node ", number,
+             " has no error values for its outputs (6206h, 6207h, 6443h, 6444h): without the "
+             "controller they stay as they are, or do as the device likes");
 }
 
 void Node::reset() {

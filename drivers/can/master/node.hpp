@@ -37,11 +37,16 @@ public:
   void heartbeat(const Frame &frame) { supervision_.received(frame); }
   void emcy(const Frame &frame, News &news);
 
+  /// An I/O device: lets those who use its bytes know whether it works.
+  void showIo() noexcept;
+
   /// Before the frames of a cycle …
   void beginReceive();
   /// … and after them: judges what has come. `syncs`: that there have been since the last time.
   void endReceive(uint32_t syncs, News &news);
-  /// All its synchronous TPDOs of the cycle have come.
+  /// There has been a SYNC.
+  void syncPassed() { atSync_ = {}; }
+  /// All its synchronous TPDOs have come since the last SYNC.
   [[nodiscard]] bool pdosComplete() const;
   /// Makes the RPDOs of the cycle.
   void makePdos();
@@ -97,6 +102,9 @@ private:
   void watch(News &news);
   void watchDrive(News &news);
   [[nodiscard]] bool isDrive() const { return config_.kind == NodeConfig::Kind::Drive; }
+  [[nodiscard]] bool isIo() const { return config_.kind == NodeConfig::Kind::Io; }
+  bool takeOver(size_t place, const Frame &frame);
+  [[nodiscard]] Frame rpdoFrame(size_t place) const;
   void countPdos(uint32_t syncs);
   void started(News &news);
   void serveSdo(News &news);
@@ -114,7 +122,8 @@ private:
   Drive402 drive_;
   ParameterTransfer parameters_;
   std::array<Rpdo, DrivePlan::kMostPdos> rpdos_{};
-  std::array<uint8_t, DrivePlan::kMostPdos> arrived_{}; ///< TPDOs of this cycle, by place.
+  std::array<uint8_t, DrivePlan::kMostPdos> arrived_{}; ///< TPDOs of this cycle, by place …
+  std::array<bool, DrivePlan::kMostPdos> atSync_{};     ///< … and since the last SYNC.
   ObjectWish wish_;                                     ///< The drive's, under way.
   std::array<uint8_t, 4> wishBytes_{};
   uint32_t refreshCycles_;

@@ -4,17 +4,28 @@
 
 #include "drivers/can/master/drive402.hpp"
 #include "drivers/can/plan/pdo_plan.hpp"
+#include "runtime/common/io_exchange.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace stride::can {
+
+/// Where the bytes of an I/O device come from and go to.
+struct IoConfig {
+  std::shared_ptr<common::IoExchange> exchange; ///< Null: nowhere.
+  /// The first byte of each PDO, by its place in the plan.
+  std::array<uint16_t, DrivePlan::kMostPdos> rpdoAt{};
+  std::array<uint16_t, DrivePlan::kMostPdos> tpdoAt{};
+};
 
 struct NodeConfig {
   enum class Kind : uint8_t {
     Drive,
     Encoder,    ///< CiA 406.
+    Io,         ///< CiA 401.
     SyncDevice, ///< It gives SYNC and nothing else.
   };
   enum class Reset : uint8_t { Communication, Node, None };
@@ -24,6 +35,7 @@ struct NodeConfig {
   DrivePlan plan;             ///< With the number of the node.
   uint32_t encoderModulo = 0; ///< What an encoder counts to; 0: 2^32.
   DriveConfig drive;
+  IoConfig io;
   double cycle = 0.001; ///< [s]
   Reset reset = Reset::Communication;
   /// 1018h:1 … 1018h:4: vendor, product, revision, serial number; 0: whichever.

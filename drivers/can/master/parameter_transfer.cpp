@@ -20,6 +20,18 @@ constexpr size_t kRawBytes = 4;
 constexpr std::array<Result, 4> kResults = {Result::Failed, Result::Unknown, Result::ReadOnly,
                                             Result::Refused};
 
+/// Objects of a drive's configuration that outlast its use: what is set in every cycle or at
+/// start-up by the driver is not among them. [CiA 402]
+constexpr std::array<Object, 44> kUsual = {{
+    {0x6007, 0}, {0x605A, 0}, {0x605B, 0}, {0x605C, 0}, {0x605D, 0}, {0x605E, 0}, {0x6065, 0},
+    {0x6066, 0}, {0x6067, 0}, {0x6068, 0}, {0x606D, 0}, {0x606E, 0}, {0x606F, 0}, {0x6070, 0},
+    {0x6072, 0}, {0x6073, 0}, {0x607C, 0}, {0x607D, 1}, {0x607D, 2}, {0x607E, 0}, {0x607F, 0},
+    {0x6080, 0}, {0x6081, 0}, {0x6083, 0}, {0x6084, 0}, {0x6085, 0}, {0x6086, 0}, {0x6087, 0},
+    {0x608F, 1}, {0x608F, 2}, {0x6090, 1}, {0x6090, 2}, {0x6091, 1}, {0x6091, 2}, {0x6092, 1},
+    {0x6092, 2}, {0x6098, 0}, {0x6099, 1}, {0x6099, 2}, {0x609A, 0}, {0x60C5, 0}, {0x60C6, 0},
+    {0x60E0, 0}, {0x60E1, 0},
+}};
+
 uint64_t wordOf(std::span<const uint8_t> bytes) {
   uint64_t word = 0;
   for (size_t i = 0; i < bytes.size(); ++i)
@@ -70,9 +82,18 @@ std::optional<Object> objectOfParameter(int32_t number) {
 int32_t parameterOf(Object object) { return object.index * 256 + object.sub; }
 
 ParameterTransfer::ParameterTransfer(std::span<const SdoWrite> listed) {
-  listed_.reserve(listed.size());
+  listed_.reserve(listed.size() + kUsual.size());
   for (const SdoWrite &one : listed)
-    listed_.push_back({one.object, std::string(std::string_view(ObjectText(one.object)))});
+    list(one.object, There::Yes);
+  for (const Object object : kUsual)
+    list(object, There::Unknown);
+}
+
+void ParameterTransfer::list(Object object, There there) {
+  const bool known = std::any_of(listed_.begin(), listed_.end(),
+                                 [object](const Listed &one) { return one.object == object; });
+  if (!known)
+    listed_.push_back({object, std::string(std::string_view(ObjectText(object))), there});
 }
 
 void ParameterTransfer::start(const ParameterRequest &request) {
@@ -90,18 +111,33 @@ void ParameterTransfer::start(const ParameterRequest &request) {
     answer(Result::Unknown);
 }
 
+/// The place counts among those that the node has: it is asked where that is not known yet.
 void ParameterTransfer::describe() {
-  const auto place = static_cast<size_t>(std::max(request_.number, 0));
   const bool asked = (request_.forms & formBit(ParameterForm::Number)) != 0;
-  if (!asked || request_.number < 0 || place >= listed_.size()) {
-    answer(Result::Unknown);
+  int32_t left = request_.number;
+  for (size_t i = 0; asked && left >= 0 && i < listed_.size(); ++i) {
+    const Listed &one = listed_[i];
+    if (one.there == There::Unknown) {
+      probe_ = i;
+      object_ = one.object;
+      step_ = Step::Asked;
+      return;
+    }
+    if (one.there == There::No || left-- > 0)
+      continue;
+    answer_.number = parameterOf(one.object);
+    answer_.type = ParameterAnswer::Type::Whole;
+    answer_.writable = true;
+    answer_.name = one.name;
+    answer(Result::Done);
     return;
   }
-  answer_.number = parameterOf(listed_[place].object);
-  answer_.type = ParameterAnswer::Type::Whole;
-  answer_.writable = true;
-  answer_.name = listed_[place].name;
-  answer(Result::Done);
+  answer(Result::Unknown);
+}
+
+void ParameterTransfer::probed(bool there) {
+  listed_[probe_].there = there ? There::Yes : There::No;
+  describe();
 }
 
 void ParameterTransfer::answer(Result result) {
@@ -118,7 +154,8 @@ bool ParameterTransfer::poll(ParameterAnswer &answer) {
 }
 
 void ParameterTransfer::cancel(SdoClient &sdo) {
-  if (step_ == Step::Reading || step_ == Step::Measuring || step_ == Step::Writing)
+  if (step_ == Step::Reading || step_ == Step::Measuring || step_ == Step::Writing ||
+      step_ == Step::Probing)
     sdo.cancel();
   step_ = Step::Idle;
 }
@@ -129,6 +166,11 @@ void ParameterTransfer::clear() {
 }
 
 void ParameterTransfer::begin(SdoClient &sdo) {
+  if (request_.kind == ParameterRequest::Kind::Describe) {
+    if (sdo.upload(object_, std::span<uint8_t>(bytes_).first(kMostNumberBytes)))
+      step_ = Step::Probing;
+    return;
+  }
   const bool writes = request_.kind == ParameterRequest::Kind::Write;
   if (writes && request_.form == ParameterForm::Bytes) {
     write(sdo, request_.bytes.size());
@@ -205,6 +247,14 @@ void ParameterTransfer::aborted(const SdoClient &sdo) {
 }
 
 void ParameterTransfer::finished(SdoClient &sdo) {
+  if (step_ == Step::Probing) {
+    const bool done = sdo.state() == SdoClient::State::Done;
+    if (!done && !isMissing(sdo.abortCode()))
+      aborted(sdo);
+    else
+      probed(done && sdo.size() > 0 && sdo.size() <= kRawBytes);
+    return;
+  }
   if (step_ != Step::Reading && step_ != Step::Measuring && step_ != Step::Writing)
     return; // it has been given up
   if (sdo.state() != SdoClient::State::Done) {

@@ -24,7 +24,8 @@ int32_t parameterOf(Object object);
 /// One question at a time.
 class ParameterTransfer {
 public:
-  /// `listed`: the objects that programs find by asking for a list.
+  /// What programs find by asking for a list: these objects, and then those that drives usually
+  /// have for their configuration, as far as the node has them.
   explicit ParameterTransfer(std::span<const SdoWrite> listed);
 
   void start(const bus::ParameterRequest &request);
@@ -49,14 +50,20 @@ private:
     Reading,
     Measuring, ///< Write: how long the object is.
     Writing,
+    Probing, ///< Describe: whether there is such an object.
     Answered,
   };
+  /// Whether the node has an object of the list.
+  enum class There : uint8_t { Unknown, Yes, No };
   struct Listed {
     Object object;
     std::string name;
+    There there = There::Unknown;
   };
 
+  void list(Object object, There there);
   void describe();
+  void probed(bool there);
   void answer(bus::ParameterAnswer::Result result);
   void read(size_t size);
   void write(SdoClient &sdo, size_t size);
@@ -68,6 +75,7 @@ private:
   bus::ParameterRequest request_;
   bus::ParameterAnswer answer_;
   Object object_;
+  size_t probe_ = 0; ///< The place in the list that is looked for.
   Step step_ = Step::Idle;
 };
 

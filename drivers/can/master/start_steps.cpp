@@ -75,8 +75,9 @@ void addChecks(List &list, const NodeConfig &config) {
     if (config.identity[i] != 0)
       list.add(StartOp::Identity, kIdentityStep,
                {{object::kIdentity, static_cast<uint8_t>(i + 1)}, 4, config.identity[i]});
-  if (config.kind == NodeConfig::Kind::Encoder) {
-    list.add(StartOp::EncoderRange, kIdentityStep, optional(object::kEncoderRange));
+  if (config.kind != NodeConfig::Kind::Drive) {
+    if (config.kind == NodeConfig::Kind::Encoder)
+      list.add(StartOp::EncoderRange, kIdentityStep, optional(object::kEncoderRange));
     return;
   }
   list.add(StartOp::SupportedModes, kIdentityStep, optional(object::kSupportedModes));
@@ -152,11 +153,11 @@ bool isExactPeriod(double seconds) { return periodOf(seconds).exact; }
 std::vector<StartStep> startSteps(const NodeConfig &config) {
   List list;
   const bool drive = config.kind == NodeConfig::Kind::Drive;
-  const bool encoder = config.kind == NodeConfig::Kind::Encoder;
+  const bool served = config.kind != NodeConfig::Kind::SyncDevice;
   list.add(StartOp::Reset, kResetting);
   if (config.reset != NodeConfig::Reset::None)
     list.add(StartOp::BootUp, kResetting);
-  if (drive || encoder) {
+  if (served) {
     addChecks(list, config);
     addConfiguration(list, config);
     if (drive)
@@ -164,11 +165,11 @@ std::vector<StartStep> startSteps(const NodeConfig &config) {
     addSupervision(list, config);
   }
   list.add(StartOp::Start, kStartStep);
-  if (drive || encoder)
+  if (served)
     list.add(StartOp::Operational, kStartStep);
   if (config.producesSync)
     addSync(list, config);
-  if (drive || encoder)
+  if (served)
     list.add(StartOp::FirstPdo, kPdoStep);
   return list.take();
 }

@@ -18,9 +18,10 @@ struct ProfileRow {
   std::string_view number; ///< … as 1000h shows it.
   std::string_view text;
 };
-constexpr std::array<ProfileRow, 2> kProfiles = {
+constexpr std::array<ProfileRow, 3> kProfiles = {
     {{NodeConfig::Kind::Drive, 402, "0192", " is no drive of CiA 402"},
-     {NodeConfig::Kind::Encoder, 406, "0196", " is no encoder of CiA 406"}}};
+     {NodeConfig::Kind::Encoder, 406, "0196", " is no encoder of CiA 406"},
+     {NodeConfig::Kind::Io, 401, "0191", " is no I/O device of CiA 401"}}};
 const ProfileRow &profileOf(NodeConfig::Kind kind) {
   return *std::find_if(kProfiles.begin(), kProfiles.end() - 1,
                        [kind](const ProfileRow &row) { return row.kind == kind; });
@@ -63,6 +64,13 @@ Manner mannerOf(StartOp op) { return kOps[static_cast<size_t>(op)].manner; }
 constexpr std::array<NmtCommand, 3> kResets = {NmtCommand::ResetCommunication,
                                                NmtCommand::ResetNode, NmtCommand::PreOperational};
 
+/// What an output of an I/O device becomes without a master.
+bool isErrorValue(Object object) {
+  constexpr std::array kOfOutputs = {object::kOutputErrorMode, object::kOutputErrorValue,
+                                     object::kAnalogErrorMode, object::kAnalogErrorValue};
+  return std::find(kOfOutputs.begin(), kOfOutputs.end(), object.index) != kOfOutputs.end();
+}
+
 uint32_t numberOf(std::span<const uint8_t> bytes) {
   uint32_t value = 0;
   for (size_t i = 0; i < bytes.size(); ++i)
@@ -83,12 +91,14 @@ void StartUp::begin() {
   stampFits_ = false;
   lacksConsumer_ = false;
   lacksHeartbeat_ = false;
+  lacksErrorValues_ = false;
 }
 
 void StartUp::go(size_t place) {
   place_ = place;
   waited_ = 0;
   asked_ = false;
+  measured_ = 0;
 }
 
 uint8_t StartUp::progress() const {
@@ -217,7 +227,8 @@ bool StartUp::chooseMode(const StartParts &parts, bus::Message &message) {
 
 StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
   const SdoWrite &object = now().object;
-  if (mannerOf(now().op) == Manner::Read) {
+  const bool measures = object.size == 0 && measured_ == 0; // before it is written
+  if (mannerOf(now().op) == Manner::Read || (now().op == StartOp::Write && measures)) {
     asked_ = parts.sdo.upload(object.object, bytes_);
     return Outcome::Busy;
   }
@@ -229,7 +240,8 @@ StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
   }
   for (size_t i = 0; i < bytes_.size(); ++i)
     bytes_[i] = static_cast<uint8_t>(value >> 8 * i);
-  const size_t size = std::clamp<size_t>(object.size, 1, bytes_.size());
+  const size_t size =
+      std::clamp<size_t>(object.size != 0 ? object.size : measured_, 1, bytes_.size());
   asked_ = parts.sdo.download(object.object, std::span<const uint8_t>(bytes_).first(size));
   return Outcome::Busy;
 }
@@ -243,9 +255,28 @@ StartUp::Outcome StartUp::answered(const StartParts &parts, bus::Message &messag
   default:
     break;
   }
+  if (now().op == StartOp::Write && now().object.size == 0 && measured_ == 0)
+    return measured(parts, message);
   if (mannerOf(now().op) == Manner::Write)
     return Outcome::Next;
   return taken(parts, numberOf(std::span<const uint8_t>(bytes_).first(parts.sdo.size())), message);
+}
+
+/// The node has told how long the object is: what is cut off of the value must be nothing, or its
+/// sign.
+StartUp::Outcome StartUp::measured(const StartParts &parts, bus::Message &message) {
+  const size_t size = parts.sdo.size();
+  const SdoWrite &write = now().object;
+  const uint32_t above = size < sizeof(uint32_t) ? write.value >> (8 * size - 1) : 0;
+  const bool sign = size < sizeof(uint32_t) && above == UINT32_MAX >> (8 * size - 1);
+  if (size >= 1 && size <= sizeof(uint32_t) && (above >> 1U == 0 || sign)) {
+    measured_ = static_cast<uint8_t>(size);
+    asked_ = false;
+    return Outcome::Busy;
+  }
+  message.set("node ", uint32_t{node_}, ", ", ObjectText(write.object), ": ", HexText(write.value),
+              " does not fit into its ", static_cast<uint32_t>(size), " bytes");
+  return Outcome::Failed;
 }
 
 StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message) {
@@ -254,6 +285,7 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
   if (object.optional && !parts.sdo.timedOut() && isMissing(code)) {
     lacksConsumer_ = lacksConsumer_ || now().op == StartOp::WriteConsumer;
     lacksHeartbeat_ = lacksHeartbeat_ || object.object == Object{object::kProducerHeartbeat, 0};
+    lacksErrorValues_ = lacksErrorValues_ || isErrorValue(object.object);
     noRemote_ = now().op == StartOp::NoRemote ? 0 : noRemote_;
     return Outcome::Next;
   }

@@ -74,6 +74,8 @@ public:
   /// It has no 1016h, no 1017h.
   [[nodiscard]] bool lacksConsumer() const { return lacksConsumer_; }
   [[nodiscard]] bool lacksHeartbeat() const { return lacksHeartbeat_; }
+  /// An I/O device without 6206h, 6207h, 6443h or 6444h.
+  [[nodiscard]] bool lacksErrorValues() const { return lacksErrorValues_; }
   [[nodiscard]] const std::vector<StartStep> &steps() const { return steps_; }
 
 private:
@@ -82,6 +84,7 @@ private:
   Outcome act(const StartParts &parts, bus::Message &message);
   Outcome ask(const StartParts &parts, bus::Message &message);
   Outcome answered(const StartParts &parts, bus::Message &message);
+  Outcome measured(const StartParts &parts, bus::Message &message);
   Outcome refused(const StartParts &parts, bus::Message &message);
   Outcome taken(const StartParts &parts, uint32_t value, bus::Message &message);
   Outcome awaitBootUp(const StartParts &parts);
@@ -109,9 +112,12 @@ private:
   uint32_t rangeLow_ = 0;
   uint8_t node_;
   bool asked_ = false; ///< The question of this step is under way.
+  /// Bytes of the object of this step, that its node has told; 0: it has not.
+  uint8_t measured_ = 0;
   bool stampFits_ = false;
   bool lacksConsumer_ = false;
   bool lacksHeartbeat_ = false;
+  bool lacksErrorValues_ = false;
 };
 
 } // namespace stride::can

@@ -33,11 +33,14 @@ BusLoad busLoad(std::span<const DrivePlan> plans, uint32_t bitRate, uint32_t cyc
   const uint64_t perStep = bitRate * kStep * 4; // comfortable: four fifths
   const uint64_t steps = (needed * 5 + perStep - 1) / perStep;
   load.shortestCycle = static_cast<uint32_t>(std::min<uint64_t>(steps * kStep, UINT32_MAX));
-  const uint64_t rest = room > needed ? (room - needed) / 1000 : 0;
-  constexpr uint64_t kReserved = kHeartbeatBits + kEmcyBits;
-  const uint64_t sdos = rest > kReserved ? (rest - kReserved) / kSdoBits : 0;
-  load.sdoPerCycle = static_cast<uint32_t>(std::clamp<uint64_t>(sdos, 1, kMostSdosPerCycle));
+  load.sdoPerCycle = sdosThatFit(room / 1000, load.bits);
   return load;
+}
+
+uint32_t sdosThatFit(uint64_t bitsPerCycle, uint64_t taken) {
+  constexpr uint64_t kReserved = kHeartbeatBits + kEmcyBits;
+  const uint64_t rest = bitsPerCycle > taken + kReserved ? bitsPerCycle - taken - kReserved : 0;
+  return static_cast<uint32_t>(std::clamp<uint64_t>(rest / kSdoBits, 1, kMostSdosPerCycle));
 }
 
 } // namespace stride::can

@@ -32,6 +32,10 @@ struct BusLoad {
   [[nodiscard]] bool comfortable() const { return share <= kComfortableShare; }
 };
 
+/// SDOs that fit into a cycle besides so many bits, heartbeats and an emergency: 1 …
+/// kMostSdosPerCycle.
+uint32_t sdosThatFit(uint64_t bitsPerCycle, uint64_t taken);
+
 /// `bitRate` in kBit/s, `cycle` in µs; both more than 0.
 BusLoad busLoad(std::span<const DrivePlan> plans, uint32_t bitRate, uint32_t cycle);
 

@@ -271,6 +271,13 @@ private:
 
 } // namespace
 
+std::string_view ownerOf(Object object) {
+  for (const OwnedRow &row : kOwned)
+    if (object.index >= row.first && object.index <= row.last)
+      return row.by;
+  return {};
+}
+
 bool parseStartUp(std::string_view text, SdoWrite &write, std::string &error) {
   const size_t sign = text.find(":=");
   if (sign == std::string_view::npos)
@@ -278,10 +285,8 @@ bool parseStartUp(std::string_view text, SdoWrite &write, std::string &error) {
   write = {};
   if (!objectOf(trimmed(text.substr(0, sign)), write.object, nullptr, error))
     return false;
-  const uint16_t index = write.object.index;
-  for (const OwnedRow &row : kOwned)
-    if (index >= row.first && index <= row.last)
-      return fail(error, "what is written there is the matter of " + std::string(row.by));
+  if (const std::string_view owner = ownerOf(write.object); !owner.empty())
+    return fail(error, "what is written there is the matter of " + std::string(owner));
   return valueOf(trimmed(text.substr(sign + 2)), write, error);
 }
 

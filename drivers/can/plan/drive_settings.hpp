@@ -27,6 +27,9 @@ DriveSettings driveSettings(uint8_t node, const common::SetupParameters &given);
 /// "6098h := 35", "2031h:2 := UINT#16#1F4". False: `error` says why.
 bool parseStartUp(std::string_view text, SdoWrite &write, std::string &error);
 
+/// Who else decides about an object, for messages; empty: nobody.
+std::string_view ownerOf(Object object);
+
 /// "607Ah", "6099h:1", "2031h:2:16": index, subindex, bits. False: `error` says why.
 bool parseEntry(std::string_view text, PdoEntry &entry, std::string &error);
 

@@ -1,5 +1,7 @@
 #include "drivers/can/plan/group_plan.hpp"
 
+#include "runtime/common/text.hpp"
+
 #include <algorithm>
 
 namespace stride::can {
@@ -28,6 +30,19 @@ DriveWish driveWish(uint32_t node, const bus::SetupParameters &given,
   return wish;
 }
 
+/// Its file with parameters is the data sheet of a device.
+bool isDataSheet(const bus::GroupSetup &setup, uint32_t id) {
+  for (const bus::DriveSetup &drive : setup.drives) {
+    if (drive.id != id)
+      continue;
+    const std::string name = common::lowerCase(drive.parameters.text("parameters"));
+    for (const std::string_view ending : {".dcf", ".eds", ".xdd", ".xdc"})
+      if (name.ends_with(ending))
+        return true;
+  }
+  return false;
+}
+
 /// Why a drive cannot be started at all.
 std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint32_t id,
                     const bus::GroupSetup &setup, bool hasSyncDevice) {
@@ -43,6 +58,10 @@ std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint3
     return "another drive has the same wDriveId";
   if (!settings.errors.empty())
     return settings.errors.front();
+  if (isDataSheet(setup, id))
+    return "`parameters` is a file of SMC_WriteDriveParamsToFile; of a DCF, `stride can import` "
+           "makes "
+           "`startup`";
   for (const PlanNote note : plan.notes)
     if (isError(note))
       return std::string(describe(note));
@@ -50,13 +69,14 @@ std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint3
 }
 
 void checkLoad(const GroupPlan &plan, bus::GroupFindings &findings) {
-  if (plan.load.comfortable() || plan.drives.empty())
+  if (plan.load.comfortable() || (plan.drives.empty() && plan.ios.empty()))
     return;
   bus::GroupFinding finding;
   finding.isError = !plan.load.fits();
-  finding.message = "the drives need " + percent(plan.load.share) +
-                    " of the bus: " + std::to_string(plan.load.bits) + " bits in each cycle of " +
-                    milliseconds(plan.cycle) + " at " + std::to_string(plan.bitRate) + " kBit/s";
+  finding.message = std::string(plan.ios.empty() ? "the drives" : "the nodes") + " need " +
+                    percent(plan.load.share) + " of the bus: " + std::to_string(plan.load.bits) +
+                    " bits in each cycle of " + milliseconds(plan.cycle) + " at " +
+                    std::to_string(plan.bitRate) + " kBit/s";
   finding.label =
       finding.isError ? "does not fit" : "more than 80 %: parameters and emergencies wait";
   finding.help = "take a cycle of " + milliseconds(plan.load.shortestCycle) +
@@ -131,6 +151,67 @@ std::vector<EncoderPlan> planEncoders(const bus::GroupSetup &setup, SyncProducer
   return encoders;
 }
 
+/// A drive or an encoder that is a node has that number.
+bool isTaken(uint32_t id, const bus::GroupSetup &setup) {
+  return std::any_of(setup.drives.begin(), setup.drives.end(),
+                     [id](const bus::DriveSetup &one) { return one.id == id; }) ||
+         std::any_of(setup.encoders.begin(), setup.encoders.end(),
+                     [id](const bus::EncoderSetup &one) {
+                       return one.id == id && one.parameters.text("second_of").empty();
+                     });
+}
+
+std::string ioFault(uint32_t id, const bus::GroupSetup &setup, bool hasSyncDevice) {
+  if (id == static_cast<uint32_t>(setup.busParameters.number("node_id")))
+    return "its node id is the master's own (node_id)";
+  if (hasSyncDevice && id == kSyncDevice)
+    return "its node id is that of the SYNC device";
+  if (isTaken(id, setup))
+    return "a drive or an encoder has its node id";
+  if (std::count_if(setup.ios.begin(), setup.ios.end(), [id](const bus::IoSetup &one) {
+        return static_cast<uint32_t>(one.parameters.number("node")) == id;
+      }) > 1)
+    return "another I/O device has the same `node`";
+  return {};
+}
+
+std::vector<IoPlan> planIos(const bus::GroupSetup &setup, SyncProducer sync) {
+  std::vector<IoPlan> ios;
+  for (const bus::IoSetup &io : setup.ios) {
+    IoPlan &one = ios.emplace_back(planIo(io));
+    if (one.fault.empty())
+      one.fault = ioFault(one.plan.node, setup, sync == SyncProducer::Device);
+    if (!one.fault.empty())
+      one.plan = {};
+  }
+  return ios;
+}
+
+void checkIos(const bus::GroupSetup &setup, const GroupPlan &plan, bus::GroupFindings &findings) {
+  for (size_t i = 0; i < plan.ios.size(); ++i) {
+    const IoPlan &io = plan.ios[i];
+    const std::string name = "I/O device `" + setup.ios[i].name + "`";
+    if (!io.fault.empty()) {
+      bus::GroupFinding finding{true, bus::GroupFinding::kGroup,
+                                name + " cannot be on a CAN bus so: " + io.fault,
+                                "cannot be served", ""};
+      finding.io = i;
+      findings.push_back(std::move(finding));
+    }
+    for (const uint32_t output : io.untold) {
+      const std::string number = std::to_string(output);
+      bus::GroupFinding finding{false, bus::GroupFinding::kGroup,
+                                name + ": analog output " + number +
+                                    " has a safe value, but none for when the controller is lost",
+                                "has it only as long as the controller tells it",
+                                "write it as the device has it: `startup = [\"6443h:" + number +
+                                    " := USINT#1\", \"6444h:" + number + " := DINT#…\"]`"};
+      finding.io = i;
+      findings.push_back(std::move(finding));
+    }
+  }
+}
+
 void checkReadWait(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
   const double wait = setup.busParameters.number("read_wait");
   if (!(wait >= setup.cycleSeconds) || setup.cycleSeconds <= 0)
@@ -163,7 +244,11 @@ GroupPlan planGroup(const bus::GroupSetup &setup) {
   result.cycle =
       static_cast<uint32_t>(std::clamp(setup.cycleSeconds * 1e6 + 0.5, 1.0, kLongestCycle));
   result.encoders = planEncoders(setup, result.sync);
+  result.ios = planIos(setup, result.sync);
   std::vector<DrivePlan> plans;
+  for (const IoPlan &io : result.ios)
+    if (io.fault.empty())
+      plans.push_back(io.plan);
   for (const EncoderPlan &encoder : result.encoders)
     if (encoder.plan.node != 0)
       plans.push_back(encoder.plan);
@@ -203,6 +288,7 @@ void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
           {false, i, drive + ": " + std::string(describe(note)), "served without it", ""});
   }
   checkEncoders(setup, plan, findings);
+  checkIos(setup, plan, findings);
   checkReadWait(setup, findings);
   checkLoad(plan, findings);
 }

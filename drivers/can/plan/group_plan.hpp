@@ -5,6 +5,7 @@
 
 #include "drivers/can/plan/bus_load.hpp"
 #include "drivers/can/plan/drive_settings.hpp"
+#include "drivers/can/plan/io_plan.hpp"
 #include "drivers/can/plan/pdo_plan.hpp"
 #include "runtime/bus/group_check.hpp"
 #include "runtime/bus/group_setup.hpp"
@@ -39,6 +40,7 @@ struct GroupPlan {
   std::vector<DriveSettings> settings; ///< Of each drive.
   std::vector<std::string> faults;     ///< Of each drive: why it cannot start; empty: nothing.
   std::vector<EncoderPlan> encoders;
+  std::vector<IoPlan> ios; ///< Their `fault` also says what other nodes make impossible.
   BusLoad load;
 };
 

@@ -45,6 +45,16 @@ inline constexpr uint16_t kProbeValues = 0x60BA; ///< Four objects from here.
 inline constexpr Object kTargetVelocity = {0x60FF, 0};
 inline constexpr Object kSupportedModes = {0x6502, 0};
 inline constexpr Object kEncoderRange = {0x6002, 0};
+// Of I/O devices: arrays from subindex 1.
+inline constexpr uint16_t kInputs = 0x6000;
+inline constexpr uint16_t kOutputs = 0x6200;
+inline constexpr uint16_t kOutputErrorMode = 0x6206;
+inline constexpr uint16_t kOutputErrorValue = 0x6207;
+inline constexpr uint16_t kAnalogInputs = 0x6401;
+inline constexpr uint16_t kAnalogOutputs = 0x6411;
+inline constexpr uint16_t kAnalogEvents = 0x6423;
+inline constexpr uint16_t kAnalogErrorMode = 0x6443;
+inline constexpr uint16_t kAnalogErrorValue = 0x6444;
 
 } // namespace object
 
@@ -139,6 +149,7 @@ ObjectForm formOf(Object object);
 // Identifiers. [CiA 301, predefined connection set]
 inline constexpr uint16_t kNmtId = 0x000;
 inline constexpr uint16_t kSyncCobId = 0x080;
+inline constexpr uint16_t kTimeId = 0x100;
 inline constexpr uint16_t kEmcyBase = 0x080;
 inline constexpr uint16_t kTpdoBase = 0x180; ///< The next PDO 100h further.
 inline constexpr uint16_t kRpdoBase = 0x200; ///< The same.

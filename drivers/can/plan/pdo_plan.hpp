@@ -129,7 +129,7 @@ DrivePlan planEncoder(uint8_t node);
 /// A value that is written into the drive.
 struct SdoWrite {
   Object object;
-  uint8_t size = 0; ///< 1, 2 or 4. [bytes]
+  uint8_t size = 0; ///< 1, 2 or 4; 0: the node is asked for it. [bytes]
   uint32_t value = 0;
   bool optional = false;     ///< A drive without this object goes without it.
   bool keepNoRemote = false; ///< Bit 30 stays what the drive has there.

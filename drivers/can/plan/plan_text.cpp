@@ -70,6 +70,25 @@ void addStartUp(const Widths &widths, const std::string &drive, uint8_t node,
   }
 }
 
+/// Their start-up values included, and a concise DCF for each.
+void addIos(const bus::GroupSetup &setup, const GroupPlan &plan, const Widths &widths,
+            bus::GroupPlanText &result) {
+  for (size_t i = 0; i < plan.ios.size(); ++i) {
+    const IoPlan &io = plan.ios[i];
+    const std::string &name = setup.ios[i].name;
+    if (!io.fault.empty()) {
+      result.text += "  " + wide(name, widths.drive) + io.fault + "\n";
+      continue;
+    }
+    addRows(widths, name, io.plan, result.text);
+    addStartUp(widths, name, io.plan.node, io.startup, result.text);
+    std::vector<SdoWrite> writes = pdoWrites(io.plan);
+    writes.insert(writes.end(), io.startup.begin(), io.startup.end());
+    const std::vector<uint8_t> dcf = conciseDcf(writes);
+    result.files.push_back({name + ".cdcf", std::string(dcf.begin(), dcf.end())});
+  }
+}
+
 std::string_view producerText(SyncProducer producer) {
   switch (producer) {
   case SyncProducer::FirstDrive:
@@ -95,7 +114,10 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
     widths.drive = std::max(widths.drive, drive.name.size());
   for (const bus::EncoderSetup &encoder : setup.encoders)
     widths.drive = std::max(widths.drive, encoder.name.size());
-  text += row(widths, "drive", "node", "PDO", "COB-ID", "when", "bytes", "bits", "content");
+  for (const bus::IoSetup &io : setup.ios)
+    widths.drive = std::max(widths.drive, io.name.size());
+  text += row(widths, plan.ios.empty() ? "drive" : "name", "node", "PDO", "COB-ID", "when", "bytes",
+              "bits", "content");
   for (size_t i = 0; i < plan.drives.size(); ++i) {
     const std::string &name = setup.drives[i].name;
     if (!plan.faults[i].empty()) {
@@ -110,6 +132,7 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
     const std::vector<uint8_t> dcf = conciseDcf(writes);
     result.files.push_back({name + ".cdcf", std::string(dcf.begin(), dcf.end())});
   }
+  addIos(setup, plan, widths, result);
   for (size_t i = 0; i < plan.encoders.size(); ++i) {
     const EncoderPlan &encoder = plan.encoders[i];
     const std::string &name = setup.encoders[i].name;

@@ -70,6 +70,9 @@ public:
   /// Now, by the clock of wait(); negative: it has none. [ns]
   [[nodiscard]] virtual int64_t monotonicNs() const noexcept { return -1; }
 
+  /// UTC since 1970; negative: it has no such clock. [ns]
+  [[nodiscard]] virtual int64_t utcNs() const noexcept { return -1; }
+
   /// Process frames of cycles before this one that have not left the controller yet, as far as the
   /// port sees that. Known after receive().
   [[nodiscard]] virtual size_t unconfirmed() const noexcept { return 0; }

@@ -38,12 +38,23 @@ void addArray(std::vector<ObjectRow> &rows, size_t count, ObjectRow row) {
   }
 }
 
-/// A PDO of the first `count` entries of an array.
-PdoRow pdoOfArray(uint32_t cobId, uint16_t index, size_t count, uint32_t bits) {
-  PdoRow pdo{.cobId = count > 0 ? cobId : cobId | 0x80000000U};
-  for (size_t i = 0; i < std::min(count, kMapped); ++i)
-    pdo.map[i] = static_cast<uint32_t>(index) << 16U | static_cast<uint32_t>(i + 1) << 8U | bits;
+/// A PDO of entries of an array: from the one after `before` on, as many as there are and fit.
+PdoRow pdoOfArray(uint32_t cobId, uint16_t index, size_t before, size_t count, uint32_t bits) {
+  const size_t entries = before < count ? std::min<size_t>(count - before, 64 / bits) : 0;
+  PdoRow pdo{.cobId = entries > 0 ? cobId : cobId | 0x80000000U};
+  for (size_t i = 0; i < entries; ++i)
+    pdo.map[i] =
+        static_cast<uint32_t>(index) << 16U | static_cast<uint32_t>(before + i + 1) << 8U | bits;
   return pdo;
+}
+
+/// Digital bytes in the first, analog values in the other three.
+std::vector<PdoRow> pdosOf(uint32_t cobId, uint16_t digital, size_t bytes, uint16_t analog,
+                           size_t values) {
+  std::vector<PdoRow> pdos = {pdoOfArray(cobId, digital, 0, bytes, 8)};
+  for (uint32_t i = 0; i < 3; ++i)
+    pdos.push_back(pdoOfArray(cobId + (i + 1) * 0x100, analog, size_t{4} * i, values, 16));
+  return pdos;
 }
 
 DeviceRows ioRows(const Io401Setup &setup) {
@@ -55,6 +66,7 @@ DeviceRows ioRows(const Io401Setup &setup) {
   device.deviceType = kProfile | (in > 0 ? kDigitalInputs : 0) | (out > 0 ? kDigitalOutputs : 0) |
                       (analogIn > 0 ? kAnalogInputs : 0) | (analogOut > 0 ? kAnalogOutputs : 0);
   std::vector<ObjectRow> &rows = device.objects;
+  rows = setup.more; // of several for the same object the last one counts
   const auto read = [](uint16_t index, Type type) {
     return ObjectRow{
         .index = index, .type = type, .access = Access::ReadOnly, .mapping = kInTransmit};
@@ -74,18 +86,16 @@ DeviceRows ioRows(const Io401Setup &setup) {
     rows.push_back({.index = kAnalogEvents, .type = Type::Boolean});
   addArray(rows, analogOut, {.index = kAnalogErrorMode, .type = Type::Unsigned8, .value = 1});
   addArray(rows, analogOut, {.index = kAnalogErrorValue, .type = Type::Integer32});
-  device.receive = {pdoOfArray(0x200, kOutput8, out, 8),
-                    pdoOfArray(0x300, kAnalogOutput, analogOut, 16)};
-  device.transmit = {pdoOfArray(0x40000180, kInput8, in, 8),
-                     pdoOfArray(0x40000280, kAnalogInput, analogIn, 16)};
+  device.receive = pdosOf(0x200, kOutput8, out, kAnalogOutput, analogOut);
+  device.transmit = pdosOf(0x40000180, kInput8, in, kAnalogInput, analogIn);
   return device;
 }
 
 Io401Setup limited(Io401Setup setup) {
   setup.inputBytes = std::min<uint8_t>(setup.inputBytes, 8);
   setup.outputBytes = std::min<uint8_t>(setup.outputBytes, 8);
-  setup.analogInputs = std::min<uint8_t>(setup.analogInputs, 4);
-  setup.analogOutputs = std::min<uint8_t>(setup.analogOutputs, 4);
+  setup.analogInputs = std::min(setup.analogInputs, Io401Setup::kMostAnalog);
+  setup.analogOutputs = std::min(setup.analogOutputs, Io401Setup::kMostAnalog);
   return setup;
 }
 
@@ -93,7 +103,8 @@ Io401Setup limited(Io401Setup setup) {
 
 SimulatedIo401::SimulatedIo401(const Io401Setup &setup)
     : CanopenNode(setup.node, ioRows(limited(setup))), inputBytes_(limited(setup).inputBytes),
-      outputBytes_(limited(setup).outputBytes) {}
+      outputBytes_(limited(setup).outputBytes), analogInputs_(limited(setup).analogInputs),
+      analogOutputs_(limited(setup).analogOutputs), wired_(setup.wired) {}
 
 void SimulatedIo401::put(uint16_t index, size_t place, uint64_t value) noexcept {
   if (Entry *entry = objects().find(index, static_cast<uint8_t>(place + 1)))
@@ -109,12 +120,12 @@ void SimulatedIo401::showInputs() noexcept {
     put(kInput8, i, inputs_ >> 8 * i & 0xFFU);
     put(kInput16, i / 2, inputs_ >> 16 * (i / 2) & 0xFFFFU);
   }
-  for (size_t i = 0; i < analog_.size(); ++i)
+  for (size_t i = 0; i < analogInputs_; ++i)
     put(kAnalogInput, i, static_cast<uint64_t>(static_cast<int64_t>(analog_[i])));
 }
 
 void SimulatedIo401::setInput(size_t byte, uint8_t value) noexcept {
-  if (byte >= inputBytes_)
+  if (byte >= inputBytes_ || (inputs_ >> 8 * byte & 0xFFU) == value)
     return;
   inputs_ = (inputs_ & ~(uint64_t{0xFF} << 8 * byte)) | uint64_t{value} << 8 * byte;
   showInputs();
@@ -122,7 +133,7 @@ void SimulatedIo401::setInput(size_t byte, uint8_t value) noexcept {
 }
 
 void SimulatedIo401::setAnalogInput(size_t channel, int16_t value) noexcept {
-  if (channel >= analog_.size())
+  if (channel >= analogInputs_ || analog_[channel] == value)
     return;
   analog_[channel] = value;
   showInputs();
@@ -134,10 +145,13 @@ uint8_t SimulatedIo401::output(size_t byte) const noexcept {
 }
 
 int16_t SimulatedIo401::analogOutput(size_t channel) const noexcept {
-  return channel < analog_.size() ? static_cast<int16_t>(get(kAnalogOutput, channel)) : int16_t{0};
+  return channel < analogOutputs_ ? static_cast<int16_t>(get(kAnalogOutput, channel)) : int16_t{0};
 }
 
-void SimulatedIo401::onReset() noexcept { showInputs(); }
+void SimulatedIo401::onReset() noexcept {
+  showInputs();
+  follow();
+}
 
 /// Bytes and pairs of bytes are the same outputs.
 void SimulatedIo401::onWritten(Entry &entry) noexcept {
@@ -151,6 +165,15 @@ void SimulatedIo401::onWritten(Entry &entry) noexcept {
     put(kOutput8, 2 * place, entry.value & 0xFFU);
     put(kOutput8, 2 * place + 1, entry.value >> 8U & 0xFFU);
   }
+  follow();
+}
+
+/// Wires from the outputs to the inputs.
+void SimulatedIo401::follow() noexcept {
+  for (size_t i = 0; wired_ && i < std::min(inputBytes_, outputBytes_); ++i)
+    setInput(i, output(i));
+  for (size_t i = 0; wired_ && i < std::min(analogInputs_, analogOutputs_); ++i)
+    setAnalogInput(i, analogOutput(i));
 }
 
 void SimulatedIo401::makeSafe() noexcept {
@@ -160,9 +183,10 @@ void SimulatedIo401::makeSafe() noexcept {
   }
   for (size_t i = 0; i < outputBytes_ / 2U; ++i)
     put(kOutput16, i, get(kOutput8, 2 * i) | get(kOutput8, 2 * i + 1) << 8U);
-  for (size_t i = 0; i < analog_.size(); ++i)
+  for (size_t i = 0; i < analogOutputs_; ++i)
     if (get(kAnalogErrorMode, i) != 0)
       put(kAnalogOutput, i, get(kAnalogErrorValue, i));
+  follow();
 }
 
 void SimulatedIo401::onState(NmtState state) noexcept {

@@ -7,15 +7,20 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace stride::can::simulation {
 
 struct Io401Setup {
   NodeSetup node{};
-  uint8_t inputBytes = 1;    ///< 6000h, and 6100h for pairs of them; 0 … 8.
-  uint8_t outputBytes = 1;   ///< 6200h, and 6300h for pairs of them; 0 … 8.
-  uint8_t analogInputs = 0;  ///< 6401h, 16 bits each; 0 … 4.
-  uint8_t analogOutputs = 0; ///< 6411h, 16 bits each; 0 … 4.
+  uint8_t inputBytes = 1;        ///< 6000h, and 6100h for pairs of them; 0 … 8.
+  uint8_t outputBytes = 1;       ///< 6200h, and 6300h for pairs of them; 0 … 8.
+  uint8_t analogInputs = 0;      ///< 6401h, 16 bits each; 0 … kMostAnalog.
+  uint8_t analogOutputs = 0;     ///< 6411h, 16 bits each; 0 … kMostAnalog.
+  bool wired = false;            ///< Its inputs are connected with its outputs.
+  std::vector<ObjectRow> more{}; ///< Objects of its maker; those of the profile stay as they are.
+
+  static constexpr uint8_t kMostAnalog = 12;
 };
 
 /// Outputs keep what they have, or take what 6207h and 6444h say, when the master is lost or the
@@ -45,11 +50,15 @@ private:
   [[nodiscard]] uint64_t get(uint16_t index, size_t place) const noexcept;
   void showInputs() noexcept;
   void makeSafe() noexcept;
+  void follow() noexcept;
 
   uint64_t inputs_ = 0; ///< A byte for each.
-  std::array<int16_t, 4> analog_{};
+  std::array<int16_t, Io401Setup::kMostAnalog> analog_{};
   uint8_t inputBytes_;
   uint8_t outputBytes_;
+  uint8_t analogInputs_;
+  uint8_t analogOutputs_;
+  bool wired_;
   bool changed_ = false;
 };
 

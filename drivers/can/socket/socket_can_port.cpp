@@ -329,6 +329,13 @@ size_t SocketCanPort::receive(std::span<Received> frames) noexcept {
 
 int64_t SocketCanPort::monotonicNs() const noexcept { return monotonicNow(); }
 
+int64_t SocketCanPort::utcNs() const noexcept {
+  constexpr int64_t kSecondNs = 1'000'000'000;
+  timespec now{};
+  ::clock_gettime(CLOCK_REALTIME, &now);
+  return now.tv_sec * kSecondNs + now.tv_nsec;
+}
+
 bool SocketCanPort::wait(int64_t monotonicNs) noexcept {
   while (process_ >= 0) {
     const int64_t left = monotonicNs - monotonicNow();

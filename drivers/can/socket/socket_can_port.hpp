@@ -27,6 +27,7 @@ public:
   size_t receive(std::span<Received> frames) noexcept override;
   bool wait(int64_t monotonicNs) noexcept override;
   [[nodiscard]] int64_t monotonicNs() const noexcept override;
+  [[nodiscard]] int64_t utcNs() const noexcept override;
   [[nodiscard]] size_t unconfirmed() const noexcept override;
   [[nodiscard]] ControllerState state() const noexcept override { return state_; }
   [[nodiscard]] std::string_view problem() const noexcept override {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace stride::can::tool {
 
@@ -31,6 +32,18 @@ struct SdoOptions {
 };
 int sdoRead(const SdoOptions &options);
 int sdoWrite(const SdoOptions &options);
+
+struct LssOptions {
+  std::string interface;
+  /// Vendor, product, revision, serial number of the node; none: one that has no node id.
+  std::vector<uint32_t> identity;
+  int node = 0;         ///< Its new node id; 0: it is only looked for.
+  bool store = false;   ///< For good.
+  bool allowed = false; ///< --write
+  int timeoutMs = 20;
+};
+/// Layer setting services: finds a node and gives it a node id.
+int lss(const LssOptions &options);
 
 struct MonitorOptions {
   std::string interface;

@@ -3,6 +3,7 @@
 #include "drivers/can/master/frames.hpp"
 #include "drivers/can/master/power.hpp"
 #include "drivers/can/master/sdo_abort.hpp"
+#include "drivers/can/plan/group_plan.hpp"
 #include "drivers/can/tool/tool_support.hpp"
 
 #include <array>
@@ -121,6 +122,23 @@ std::string processData(const Frame &frame, const Pdo &pdo, const std::string &d
 }
 
 } // namespace
+
+std::vector<KnownDrive> knownNodes(std::span<const bus::GroupSetup> groups) {
+  std::vector<KnownDrive> known;
+  for (const bus::GroupSetup &group : groups) {
+    const GroupPlan plan = planGroup(group);
+    for (size_t i = 0; i < plan.drives.size(); ++i)
+      if (plan.faults[i].empty())
+        known.push_back({group.drives[i].name, plan.drives[i].plan});
+    for (size_t i = 0; i < plan.ios.size(); ++i)
+      if (plan.ios[i].fault.empty())
+        known.push_back({group.ios[i].name, plan.ios[i].plan});
+    for (size_t i = 0; i < plan.encoders.size(); ++i)
+      if (plan.encoders[i].plan.node != 0)
+        known.push_back({group.encoders[i].name, plan.encoders[i].plan});
+  }
+  return known;
+}
 
 std::string describe(const Frame &frame, const std::vector<KnownDrive> &drives) {
   for (const KnownDrive &drive : drives) {

@@ -4,7 +4,9 @@
 
 #include "drivers/can/plan/pdo_plan.hpp"
 #include "drivers/can/port/frame.hpp"
+#include "runtime/bus/group_setup.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,9 @@ struct KnownDrive {
   std::string name;
   DrivePlan plan;
 };
+
+/// All nodes of these groups, as far as they can be at their buses.
+std::vector<KnownDrive> knownNodes(std::span<const bus::GroupSetup> groups);
 
 /// "TPDO1 of X: statusword 0627h operation enabled, position 12345". By the predefined connection
 /// set; PDOs by the drives' plans. Whatever the frame is, there is a text.

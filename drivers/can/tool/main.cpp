@@ -50,6 +50,21 @@ void declareSdo(CLI::App &app, SdoOptions &options, int &code) {
   write->callback([&] { code = sdoWrite(options); });
 }
 
+void declareLss(CLI::App &app, LssOptions &options, int &code) {
+  CLI::App *command = app.add_subcommand("lss", "Find a node without a node id, or set a node id");
+  addInterface(*command, options.interface);
+  command
+      ->add_option("--identity", options.identity,
+                   "Vendor, product, revision and serial number of the node (1018h)")
+      ->expected(4);
+  command->add_option("--set", options.node, "New node id")->check(CLI::Range(1, 127));
+  command->add_flag("--store", options.store, "The node keeps it for good");
+  command->add_flag("--write", options.allowed, "Yes, change the device");
+  command->add_option("--timeout", options.timeoutMs, "For each answer, in ms")
+      ->check(CLI::Range(1, 60000));
+  command->callback([&] { code = lss(options); });
+}
+
 void declareMonitor(CLI::App &app, MonitorOptions &options, int &code) {
   CLI::App *command = app.add_subcommand("monitor", "Show frames and what they mean");
   addInterface(*command, options.interface);
@@ -83,10 +98,12 @@ int main(int argc, char **argv) {
   int code = kGood;
   ScanOptions scanOptions;
   SdoOptions sdoOptions;
+  LssOptions lssOptions;
   MonitorOptions monitorOptions;
   SimulateOptions simulateOptions;
   declareScan(app, scanOptions, code);
   declareSdo(app, sdoOptions, code);
+  declareLss(app, lssOptions, code);
   declareMonitor(app, monitorOptions, code);
   declareSimulate(app, simulateOptions, code);
   try {

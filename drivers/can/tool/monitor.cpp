@@ -1,6 +1,5 @@
 // stride-can monitor
 
-#include "drivers/can/plan/group_plan.hpp"
 #include "drivers/can/socket/socket_can_port.hpp"
 #include "drivers/can/tool/commands.hpp"
 #include "drivers/can/tool/frame_text.hpp"
@@ -12,28 +11,10 @@
 #include <fmt/format.h>
 
 namespace stride::can::tool {
-namespace {
-
-std::vector<KnownDrive> knownDrives(const std::string &application) {
-  std::vector<KnownDrive> known;
-  if (application.empty())
-    return known;
-  for (const bus::GroupSetup &group : canGroups(application)) {
-    const GroupPlan plan = planGroup(group);
-    for (size_t i = 0; i < plan.drives.size(); ++i)
-      if (plan.faults[i].empty())
-        known.push_back({group.drives[i].name, plan.drives[i].plan});
-    for (size_t i = 0; i < plan.encoders.size(); ++i)
-      if (plan.encoders[i].plan.node != 0)
-        known.push_back({group.encoders[i].name, plan.encoders[i].plan});
-  }
-  return known;
-}
-
-} // namespace
-
 int monitor(const MonitorOptions &options) {
-  const std::vector<KnownDrive> drives = knownDrives(options.application);
+  const std::vector<KnownDrive> drives = options.application.empty()
+                                             ? std::vector<KnownDrive>()
+                                             : knownNodes(canGroups(options.application));
   SocketCanPort port(options.interface, 0);
   if (!isUp(port, options.interface))
     return kBad;

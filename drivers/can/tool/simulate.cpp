@@ -58,6 +58,11 @@ int simulate(const SimulateOptions &options) {
     host.add(*encoder, begin);
     ++count;
   }
+  for (const auto &io : nodes.ios)
+    if (io != nullptr) {
+      host.add(*io, begin);
+      ++count;
+    }
   if (nodes.syncDevice != nullptr) {
     host.add(*nodes.syncDevice, begin);
     ++count;

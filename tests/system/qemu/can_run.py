@@ -31,6 +31,8 @@ FAULTS = {
     "reset_of_node_2": "cansend can0 000#8102",
     "interface_down": "/bin/ip link set can0 down; sleep 0.4; /bin/ip link set can0 up",
     "drives_gone": "kill $drives; sleep 0.4; stride-can simulate /app/faults.so > /dev/null & drives=$!",
+    # What a controller says by error frames: it is off the bus, and takes part again.
+    "bus_off": "cansend can0 20000040#0000000000000000; sleep 0.4; cansend can0 20000100#0000000000000000",
     "babbling": "cangen can0 -g 0 -I 7F0 -L 8 -n 3000",
     "wrong_lengths": "for i in 1 2 3 4 5 6 7 8; do cansend can0 182#0000; done",
 }
@@ -120,6 +122,7 @@ def check_faults(out):
         "reset_of_node_2": ((TURNING, ERRORSTOP), (TURNING, TURNING)),
         "interface_down": ((ERRORSTOP, ERRORSTOP), (TURNING, TURNING)),
         "drives_gone": ((ERRORSTOP, ERRORSTOP), (TURNING, TURNING)),
+        "bus_off": ((ERRORSTOP, ERRORSTOP), (TURNING, TURNING)),
         "babbling": ((TURNING, TURNING), (TURNING, TURNING)),
         "wrong_lengths": ((TURNING, TURNING), (TURNING, TURNING)),
     }

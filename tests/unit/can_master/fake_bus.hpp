@@ -40,6 +40,10 @@ public:
   }
   bool wait(int64_t monotonicNs) noexcept override {
     waited.push_back(monotonicNs);
+    if (echoes > 0) {
+      --echoes;
+      return true;
+    }
     if (arriving.empty())
       return false;
     toReceive.push_back(arriving.front());
@@ -47,6 +51,7 @@ public:
     return true;
   }
   int64_t monotonicNs() const noexcept override { return clock; }
+  int64_t utcNs() const noexcept override { return utc; }
   ControllerState state() const noexcept override { return controller; }
   size_t unconfirmed() const noexcept override { return late; }
   PortCounters counters() const noexcept override { return portCounters; }
@@ -74,6 +79,8 @@ public:
   PortCounters portCounters;
   size_t late = 0;
   int64_t clock = -1; ///< Of wait().
+  int64_t utc = -1;
+  int echoes = 0; ///< Frames of its own, which end a wait and are not received.
   int cycles = 0;
 };
 

@@ -239,13 +239,30 @@ TEST_F(Parameter, ListsWhatTheConfigurationWrites) {
   EXPECT_EQ(answer.number, 0x609902);
   EXPECT_EQ(answer.name, "16#6099:2");
   EXPECT_TRUE(answer.writable);
-  request.number = 2;
-  EXPECT_EQ(ask(request, "").result, Result::Unknown);
   request.number = -1;
   EXPECT_EQ(ask(request, "").result, Result::Unknown);
   request.number = 0;
   request.forms = formBit(ParameterForm::Bytes);
   EXPECT_EQ(ask(request, "").result, Result::Unknown);
+}
+
+/// After the objects of the configuration: those that drives usually have, as far as this one does.
+TEST_F(Parameter, ListsWhatTheNodeHasOfUsualObjects) {
+  ParameterRequest request;
+  request.kind = ParameterRequest::Kind::Describe;
+  request.number = 2;
+  ParameterAnswer answer = ask(request, R"(> 40 07 60 00 00 00 00 00
+                                           < 80 07 60 00 00 00 02 06
+                                           > 40 5A 60 00 00 00 00 00
+                                           < 4B 5A 60 00 02 00 00 00)");
+  EXPECT_EQ(answer.result, Result::Done);
+  EXPECT_EQ(answer.number, 0x605A00);
+  EXPECT_EQ(ask(request, "").number, 0x605A00) << "it is known now";
+  request.number = 3;
+  answer = ask(request, "> 40 5B 60 00 00 00 00 00\n< 80 5B 60 00 21 00 00 08");
+  EXPECT_NE(answer.result, Result::Done) << "that says nothing of the object";
+  answer = ask(request, "> 40 5B 60 00 00 00 00 00\n< 4B 5B 60 00 00 00 00 00");
+  EXPECT_EQ(answer.number, 0x605B00);
 }
 
 } // namespace

@@ -45,15 +45,50 @@ TEST_F(ReadWaitOf, WhatArrivesMeanwhileIsOfThisCycle) {
   EXPECT_EQ(late(), 0U);
 }
 
-TEST_F(ReadWaitOf, WhatIsThereAlreadyNeedsNoWait) {
+/// Else a cycle that has once come too late would take the old values for new ones for ever.
+TEST_F(ReadWaitOf, WhatIsThereBeforeSyncIsOfTheOneBefore) {
   begin();
   arrives(0, 10);
   arrives(1, 20);
   port->toReceive = port->arriving;
   port->arriving.clear();
+  arrives(0, 11);
+  arrives(1, 21);
   cycle();
-  EXPECT_TRUE(port->waited.empty());
+  EXPECT_EQ(port->waited.size(), 2U);
+  EXPECT_EQ(driver->status(0).position, 11U);
+  EXPECT_EQ(driver->status(1).position, 21U);
+  EXPECT_TRUE(communicates(0)) << "twice in a cycle once";
+  EXPECT_EQ(late(), 0U);
+}
+
+TEST_F(ReadWaitOf, WhatIsThereRightAfterSyncNeedsNoWait) {
+  begin();
+  nodes[0].atSync = {"185#40020A000000"};
+  nodes[1].atSync = {"189#400214000000"};
+  port->heard = [this](const Frame &frame) {
+    for (test::ScriptedNode &node : nodes)
+      node.hear(frame);
+    while (!inbox.toReceive.empty()) {
+      port->arriving.push_back(inbox.toReceive.front());
+      inbox.toReceive.pop_front();
+    }
+  };
+  cycle();
+  EXPECT_EQ(driver->status(0).position, 10U);
   EXPECT_EQ(driver->status(1).position, 20U);
+  EXPECT_EQ(late(), 0U);
+}
+
+TEST_F(ReadWaitOf, ItsOwnFramesDoNotEndTheWait) {
+  begin();
+  port->echoes = 3; // SYNC and RPDOs have left the controller
+  arrives(0, 7);
+  arrives(1, 8);
+  cycle();
+  EXPECT_EQ(driver->status(0).position, 7U);
+  EXPECT_EQ(driver->status(1).position, 8U);
+  EXPECT_EQ(late(), 0U);
 }
 
 TEST_F(ReadWaitOf, ASilentNodeDelaysItsFirstCyclesOnly) {

@@ -378,5 +378,20 @@ TEST(StartSteps, TheirProgressGoesFromZeroTo99) {
   }
 }
 
+TEST_F(StartUpOf, ObjectsOfUnknownLengthAreMeasuredBeforeTheyAreWritten) {
+  config.parameters = {{{0x2031, 2}, 0, 0xFFFFFFFB}, {{0x2032, 0}, 0, 200}};
+  node.values[0x203102] = {2, 7};
+  node.values[0x203200] = {1, 7};
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_THAT(node.written, Contains("2031:2/2=FFFB"));
+  EXPECT_THAT(node.written, Contains("2032:0/1=C8"));
+}
+
+TEST_F(StartUpOf, AValueThatDoesNotFitTheMeasuredObjectIsRefused) {
+  config.parameters = {{{0x2031, 2}, 0, 256}};
+  node.values[0x203102] = {1, 7};
+  expectFailure("node 5, 16#2031:2: 16#100 does not fit into its 1 bytes");
+}
+
 } // namespace
 } // namespace stride::can

@@ -2,6 +2,7 @@
 #include "drivers/can/plan/bus_load.hpp"
 #include "drivers/can/plan/drive_settings.hpp"
 #include "drivers/can/plan/group_plan.hpp"
+#include "drivers/can/plan/parameter_file.hpp"
 #include "drivers/can/schema.hpp"
 
 #include <gmock/gmock.h>
@@ -258,6 +259,67 @@ TEST_F(OwnPdosOf, StartUpParametersAreInConciseDcfAndText) {
   ASSERT_GT(bytes.size(), last.size());
   EXPECT_EQ(bytes.substr(bytes.size() - last.size()), last);
 }
+
+TEST(ParameterFiles, TextAndXmlAreTheSame) {
+  const ParameterFile text = readParameterFile("drive;7\r\n6324992;500;16#6083:0;inc/s\r\n"
+                                               "2109698;-3;16#2031:2;\n\n6330368;TRUE;;\n"
+                                               "6323200;-12.0;home");
+  ASSERT_EQ(text.error, "");
+  ASSERT_EQ(text.writes.size(), 4U);
+  EXPECT_EQ(text.writes[0].object, (Object{0x6083, 0}));
+  EXPECT_EQ(text.writes[0].size, 4);
+  EXPECT_EQ(text.writes[0].value, 500U);
+  EXPECT_EQ(text.writes[1].object, (Object{0x2031, 2}));
+  EXPECT_EQ(text.writes[1].size, 0) << "the drive knows";
+  EXPECT_EQ(text.writes[1].value, 0xFFFFFFFDU);
+  EXPECT_EQ(text.writes[2].value, 1U);
+  EXPECT_EQ(text.writes[3].value, 0xFFFFFFF4U);
+  const ParameterFile xml = readParameterFile(
+      "<?xml version=\"1.0\"?>\n<DriveParameters DriveId=\"7\">\n"
+      " <Parameter Number=\"6324992\" Name=\"a\" Type=\"DINT\" Unit=\"\">500</Parameter>\n"
+      " <Parameter Name=\"b\" Number=\"2109698\"> -3 </Parameter>\n</DriveParameters>\n");
+  ASSERT_EQ(xml.error, "");
+  ASSERT_EQ(xml.writes.size(), 2U);
+  EXPECT_EQ(xml.writes[1].object, (Object{0x2031, 2}));
+  EXPECT_EQ(xml.writes[1].value, 0xFFFFFFFDU);
+}
+
+/// A file, and what is said of it.
+struct WrongFile {
+  std::string text;
+  std::string error;
+};
+class WrongParameterFiles : public ::testing::TestWithParam<WrongFile> {};
+
+TEST_P(WrongParameterFiles, NameTheirLine) {
+  EXPECT_EQ(readParameterFile(GetParam().text).error, GetParam().error);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, WrongParameterFiles,
+    ::testing::Values(
+        WrongFile{"", "line 1: the file is empty"},
+        WrongFile{"hello",
+                  "line 1: a file with parameters begins with `drive;` and a number, or is "
+                  "XML"},
+        WrongFile{"drive;1\n12", "line 2: a parameter is `NUMBER;VALUE;NAME;UNIT`"},
+        WrongFile{"drive;1\n\n0;1;;",
+                  "line 3: the number of a parameter is index * 256 + subindex of an object"},
+        WrongFile{"drive;1\n16777216;1;;",
+                  "line 2: the number of a parameter is index * 256 + subindex of an object"},
+        WrongFile{"drive;1\n8257536;1.5;;", "line 2: the value is no whole number of 32 bits"},
+        WrongFile{"drive;1\n8257536;4294967296;;",
+                  "line 2: the value is no whole number of 32 bits"},
+        WrongFile{"drive;1\n8257536;4294967295;;\n8257536;-2147483649;;",
+                  "line 3: the value is no whole number of 32 bits"},
+        WrongFile{"drive;1\n6330368;-128;;\n6330368;128;;",
+                  "line 3: the value does not fit into the object"},
+        WrongFile{"drive;1\n1054464;1;;",
+                  "line 2: what is written there is the matter of `heartbeat`"},
+        WrongFile{"<DriveParameters>\n<Parameter Number=\"1\">2",
+                  "line 2: a parameter is `<Parameter Number=\"…\" …>VALUE</Parameter>`"},
+        WrongFile{"<DriveParameters>\n<Parameter Number=\"8257536\">2</Parameter>\n",
+                  "line 3: the end of the file is missing"}));
 
 } // namespace
 } // namespace stride::can

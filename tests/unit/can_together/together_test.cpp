@@ -161,5 +161,31 @@ TEST(CanTogetherMotion, ADriveThatIsResetIsLostUntilItIsStartedAgain) {
   scene.run();
 }
 
+/// In operation there is room for one SDO in a cycle; while nothing else is on the bus, for four.
+TEST(CanTogetherStart, ManyDrivesStartSideBySide) {
+  Together scene(0.004);
+  for (uint32_t id = 1; id <= 16; ++id)
+    scene.add(id);
+  scene.make();
+  ASSERT_EQ(canSetup(scene.setup).master.sdoPerCycle, 1U);
+  int cycles = 0;
+  uint64_t most = 0;
+  for (; cycles < 3000 && !scene.allStarted() && scene.failed.empty(); ++cycles) {
+    const uint64_t before = scene.network->bus().counters().bits;
+    scene.cycle();
+    most = std::max(most, scene.network->bus().counters().bits - before);
+  }
+  EXPECT_EQ(scene.failed, "");
+  ASSERT_TRUE(scene.allStarted());
+  RecordProperty("cycles", cycles);
+  EXPECT_LT(cycles, 320) << "one after the other it takes more than 900";
+  EXPECT_LT(most, 4000U) << "the bus has time for that many bits";
+  for (int i = 0; i < 50; ++i)
+    scene.cycle();
+  for (size_t i = 0; i < 16; ++i)
+    EXPECT_TRUE(scene.driver->status(i).communication) << i;
+  EXPECT_EQ(scene.driver->master().counters().sendQueueFull, 0U);
+}
+
 } // namespace
 } // namespace stride::can

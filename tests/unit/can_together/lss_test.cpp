@@ -1,0 +1,117 @@
+// The master of layer setting services and the simulated nodes, each the other's judge.
+#include "drivers/can/master/lss_master.hpp"
+#include "drivers/can/port/port.hpp"
+#include "drivers/can/simulation/canopen_node.hpp"
+#include "drivers/can/simulation/simulated_bus.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace stride::can {
+namespace {
+
+using simulation::CanopenNode;
+using Identity = LssMaster::Identity;
+
+class Lss : public ::testing::Test {
+protected:
+  Lss()
+      : bus({}), port(bus.port(bus.addPort())), one({.id = simulation::kUnconfigured,
+                                                     .vendor = 0xA0000001,
+                                                     .product = 0x22,
+                                                     .revision = 0xFFFFFFFF,
+                                                     .serial = 0x1234},
+                                                    {}),
+        two({.id = simulation::kUnconfigured,
+             .vendor = 0xA0000001,
+             .product = 0x22,
+             .revision = 0,
+             .serial = 0x80000000},
+            {}),
+        three({.id = 3, .vendor = 1, .product = 2, .revision = 3, .serial = 4}, {}),
+        master([this](const Frame &request, bool awaits) { return exchange(request, awaits); }) {
+    for (CanopenNode *node : {&one, &two, &three})
+      bus.attach(*node);
+    run(30);
+  }
+  void run(int cycles) {
+    for (int i = 0; i < cycles; ++i)
+      port.beginCycle();
+  }
+  std::optional<Frame> exchange(const Frame &request, bool awaits) {
+    std::array<Received, 16> frames;
+    while (port.receive(frames) != 0) {
+    }
+    port.send(request, SendClass::Service);
+    ++requests;
+    run(2);
+    const size_t count = port.receive(frames);
+    for (size_t i = 0; awaits && i < count; ++i)
+      if (frames[i].frame.id == LssMaster::kAnswerId)
+        return frames[i].frame;
+    return std::nullopt;
+  }
+
+  simulation::SimulatedBus bus;
+  Port &port;
+  CanopenNode one;
+  CanopenNode two;
+  CanopenNode three;
+  LssMaster master;
+  int requests = 0;
+};
+
+TEST_F(Lss, FastScanFindsOneAfterTheOtherAndGivesThemNumbers) {
+  const std::optional<Identity> first = master.fastScan();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(*first, (Identity{0xA0000001, 0x22, 0, 0x80000000})) << "the smaller revision";
+  EXPECT_EQ(master.node(), LssMaster::kNoNode);
+  EXPECT_EQ(master.setNode(17), LssResult::Done);
+  EXPECT_EQ(master.store(), LssResult::Done);
+  master.leave();
+  run(40);
+  EXPECT_EQ(two.id(), 17) << "it begins with its number";
+  EXPECT_EQ(one.id(), simulation::kUnconfigured);
+
+  const std::optional<Identity> second = master.fastScan();
+  ASSERT_TRUE(second);
+  EXPECT_EQ(*second, (Identity{0xA0000001, 0x22, 0xFFFFFFFF, 0x1234}));
+  EXPECT_EQ(master.setNode(127), LssResult::Done);
+  master.leave();
+  run(40);
+  EXPECT_EQ(one.id(), 127);
+  EXPECT_EQ(master.fastScan(), std::nullopt) << "all have one";
+  EXPECT_EQ(three.id(), 3);
+}
+
+TEST_F(Lss, ByItsIdentityANodeIsChangedWithTheNextReset) {
+  EXPECT_EQ(master.select({1, 2, 3, 5}), LssResult::NoAnswer);
+  ASSERT_EQ(master.select({1, 2, 3, 4}), LssResult::Done);
+  EXPECT_EQ(master.node(), 3);
+  EXPECT_EQ(master.setNode(0), LssResult::Refused);
+  EXPECT_EQ(master.setNode(128), LssResult::Refused);
+  EXPECT_EQ(master.setNode(9), LssResult::Done);
+  master.leave();
+  run(40);
+  EXPECT_EQ(three.id(), 3);
+  Frame reset;
+  reset.length = 2;
+  reset.data = {0x82, 3};
+  port.send(reset, SendClass::Service);
+  run(40);
+  EXPECT_EQ(three.id(), 9);
+}
+
+TEST_F(Lss, WithoutNodesNobodyAnswers) {
+  for (CanopenNode *node : {&one, &two, &three})
+    node->setSilent(true);
+  EXPECT_EQ(master.fastScan(), std::nullopt);
+  EXPECT_EQ(requests, 1);
+  EXPECT_EQ(master.setNode(5), LssResult::NoAnswer);
+  EXPECT_EQ(master.store(), LssResult::NoAnswer);
+  EXPECT_EQ(master.node(), std::nullopt);
+}
+
+} // namespace
+} // namespace stride::can
