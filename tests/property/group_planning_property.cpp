@@ -39,7 +39,9 @@ public:
     return command;
   }
 
-  void follow(const GroupCommand &command) { stride::group::follow(*group_, *planning_, command); }
+  void follow(const GroupCommand &command) {
+    (void)stride::group::follow(*group_, *planning_, command);
+  }
   void goOnAndPost(const GroupCommand &command) {
     goOn(*group_, *planning_, arm_, command);
     (void)post(*group_, *planning_, arm_, machine_.kinematics, command);
@@ -113,7 +115,14 @@ public:
       }
       step();
     }
-    ADD_FAILURE() << "stuck at " << tasks_.group().motion.way;
+    const GroupMotion &group = tasks_.group();
+    ADD_FAILURE() << "stuck at " << group.motion.way << " of " << reference_->motion.way
+                  << ", movement " << group.first << " of " << group.next << ", looked at "
+                  << group.looked << ", stops " << stopping_ << atOnce_ << ", holds "
+                  << holds(group) << ", alone " << group.alone << ", law " << group.motion.law.first
+                  << " to " << group.motion.law.next << ", course to "
+                  << stride::path::endOf(group.motion.course) << ", override " << override_
+                  << ", keep " << keep_ << ", dwells " << group.dwelling << group.motion.gate;
     return true;
   }
 

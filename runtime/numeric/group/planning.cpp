@@ -93,12 +93,12 @@ void take(GroupMotion &group, GroupPlanning &planning) noexcept {
   group.awaits = answer.goesOn;
 }
 
-/// Looks at the answer to the last job.
-void receive(GroupMotion &group, GroupPlanning &planning) noexcept {
+/// Looks at the answer to the last job. False: it comes to nothing.
+bool receive(GroupMotion &group, GroupPlanning &planning) noexcept {
   const PlanningMail &mail = planning.mail;
   const PlanningAnswer &answer = mail.answer;
   if (mail.job.epoch != group.epoch || group.alone)
-    return;
+    return false;
   planning.given = answer.next;
   const bool passed = answer.changed && !path::isBefore(path::placeIn(group.motion), answer.cut);
   planning.whole = answer.lost || passed;
@@ -108,6 +108,7 @@ void receive(GroupMotion &group, GroupPlanning &planning) noexcept {
   planning.late = smaller(larger(late, (passed ? kMore : kLess) * planning.late), kLatest);
   if (!planning.whole)
     take(group, planning);
+  return !planning.whole;
 }
 
 /// All that the axes' task has of the path.
@@ -231,15 +232,19 @@ void answerWith(const GroupMotion &planner, PlanningMail &mail) noexcept {
 
 } // namespace
 
-void follow(GroupMotion &group, GroupPlanning &planning, const GroupCommand &command) noexcept {
+bool follow(GroupMotion &group, GroupPlanning &planning, const GroupCommand &command) noexcept {
   prepare(group, command);
+  bool taken = false;
   if (holderOf(planning) == MailHolder::Answered) {
-    receive(group, planning);
+    taken = receive(group, planning);
     give(planning, MailHolder::Axes);
   }
   group.alone = group.alone || (command.stop && command.atOnce);
-  if (group.alone)
+  if (group.alone) {
+    group.awaits = false; // it shall not wait for a plan that it will not take
     (void)path::think(group.motion, command.steps);
+  }
+  return taken;
 }
 
 void goOn(GroupMotion &group, GroupPlanning &planning, const Arm &arm,

@@ -87,7 +87,8 @@ struct GroupPlanning {
 };
 
 /// In the axes' task, in place of plan(): takes an answer, and stops what is to stop at once.
-void follow(GroupMotion &group, GroupPlanning &planning, const GroupCommand &command) noexcept;
+/// Whether it has taken one; `planning.mail.job` is what that was planned for.
+bool follow(GroupMotion &group, GroupPlanning &planning, const GroupCommand &command) noexcept;
 
 /// After that, in place of goOn(): goes on.
 void goOn(GroupMotion &group, GroupPlanning &planning, const Arm &arm,
