@@ -335,4 +335,88 @@ TEST(GroupPlanning, RestsWhereNothingIsPlannedAndGoesOn) {
   compare(Habit::Moody, true, 82'000, wanted(40), slower);
 }
 
+/// A long way at speed: 3 axes with known limits.
+class LongWay {
+public:
+  LongWay() : machine_(gantry()), tasks_(long_(), machine_, kCycle) {}
+
+  static constexpr double kCycle = 0.001;
+  static constexpr double kSpeed = 200;
+
+  GroupMotion &group() { return tasks_.group(); }
+  double speed() { return std::fabs(group().velocity[0]); }
+
+  /// Drives for so many cycles; the other task plans in every 10th of them, or not at all.
+  void drive(int cycles, bool plans, bool stop = false, bool atOnce = false) {
+    for (int n = 0; n < cycles; ++n, ++now_) {
+      const GroupCommand command = tasks_.command(1, stop, kKeep, atOnce, kAllAllowed);
+      tasks_.follow(command);
+      tasks_.goOnAndPost(command);
+      if (plans && now_ % 10 == 0 && tasks_.takeJob()) {
+        tasks_.doJob(10 * kCycle);
+        tasks_.answerJob();
+      }
+    }
+  }
+
+  static constexpr double kKeep = 0.3;
+
+private:
+  std::unique_ptr<GroupMotion> long_() {
+    for (AxisLimits &limits : machine_.limits)
+      limits = {kSpeed, 2000, 40'000, -1e6, 1e6};
+    const double to[kAxes] = {5000};
+    double perTime[kAxes];
+    std::fill(std::begin(perTime), std::end(perTime), kSpeed);
+    auto group = std::make_unique<GroupMotion>();
+    reset(*group, machine_.home);
+    Order order{};
+    order.velocityFactor = order.accelerationFactor = order.jerkFactor = 1;
+    append(*group, drawId(*group), axesLeg(machine_.home, to, perTime, kSpeed), order);
+    return group;
+  }
+
+  Machine machine_;
+  Tasks tasks_;
+  int now_ = 0;
+};
+
+/// What stops at once rests after the shortest time, though nobody plans any more; what does not
+/// goes on for as long as has been promised.
+TEST(GroupPlanning, StopsAtOnceWhoeverPlans) {
+  constexpr int kRamp = 150; // 200 / 2000 + 2000 / 40000 s
+  LongWay once;
+  once.drive(2000, true);
+  ASSERT_NEAR(once.speed(), LongWay::kSpeed, 1e-6);
+  once.drive(5, false, true, true);
+  EXPECT_LT(once.speed(), LongWay::kSpeed - 1e-3);
+  once.drive(kRamp + kRamp / 10, false, true, true);
+  EXPECT_EQ(once.speed(), 0);
+  EXPECT_TRUE(isAtRest(once.group()));
+
+  LongWay late;
+  late.drive(2000, true);
+  late.drive(280, true, true, false);
+  EXPECT_NEAR(late.speed(), LongWay::kSpeed, 1e-6);
+  late.drive(60 + kRamp + kRamp / 10, true, true, false);
+  EXPECT_EQ(late.speed(), 0);
+}
+
+/// Where nobody plans any more it rests on its path, with what has been promised kept until then,
+/// and goes on when somebody does.
+TEST(GroupPlanning, WaitsOnItsPathUntilSomebodyPlans) {
+  LongWay way;
+  way.drive(2000, true);
+  EXPECT_GE(plannedTime(way.group()), LongWay::kKeep - 0.02);
+  way.drive(static_cast<int>(1000 * LongWay::kKeep) - 20, false);
+  EXPECT_NEAR(way.speed(), LongWay::kSpeed, 1e-6);
+  way.drive(20'000, false);
+  EXPECT_EQ(way.speed(), 0);
+  EXPECT_LT(way.group().axes[0], 4000);
+  EXPECT_EQ(outcomeOf(way.group(), 1), Outcome::Active);
+  way.drive(200'000 / 8, true);
+  EXPECT_EQ(outcomeOf(way.group(), 1), Outcome::Done);
+  EXPECT_NEAR(way.group().axes[0], 5000, 1e-9);
+}
+
 } // namespace
