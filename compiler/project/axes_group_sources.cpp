@@ -67,9 +67,12 @@ private:
     const std::string_view task = checkAxes(group);
     const size_t joints = checkKinematics(group);
     checkNumber(group, joints);
+    TaskConfig *const planner = planningTask(group, task);
     if (program_.diagnostics.errorCount() != errors || task.empty())
       return;
-    declare(group);
+    declare(group, planner != nullptr);
+    if (planner != nullptr)
+      planner->programs.push_back({group.name.text + "__plan", group.planningTask.span});
     for (TaskConfig &candidate : config_.tasks)
       if (equalIgnoringCase(candidate.name.text, task))
         candidate.programs.push_back({group.name.text + "__service", group.name.span});
@@ -116,6 +119,25 @@ private:
       }
     }
     return task;
+  }
+
+  /// The task in which it is planned; null: that of its axes, or something has been reported.
+  TaskConfig *planningTask(const AxesGroupConfig &group, std::string_view task) {
+    const ConfigName &name = group.planningTask;
+    if (name.text.empty() || equalIgnoringCase(name.text, task))
+      return nullptr;
+    std::vector<std::string_view> known;
+    for (TaskConfig &candidate : config_.tasks) {
+      if (equalIgnoringCase(candidate.name.text, name.text))
+        return &candidate;
+      known.push_back(candidate.name.text);
+    }
+    Diagnostic &d = report(Code::ConfigUnknownTask, name.span,
+                           fmt::format("there is no task `{}`", name.text), "not found");
+    if (const std::string_view near = nearest(name.text, known); !near.empty())
+      d.help(fmt::format("did you mean `{}`?", near));
+    d.note(fmt::format("tasks: {}", fmt::join(known, ", ")));
+    return nullptr;
   }
 
   void reportUnknownAxis(const ConfigName &name) {
@@ -230,7 +252,7 @@ private:
                              or0(group.pcs2));
   }
 
-  void declare(const AxesGroupConfig &group) {
+  void declare(const AxesGroupConfig &group, bool plannedAside) {
     const std::string &name = group.name.text;
     const bool hasKinematics = !group.kinematics.text.empty();
     declareType(group);
@@ -246,10 +268,23 @@ private:
     fields += systemsOf(group);
     if (!group.tool.empty())
       fields += fmt::format(", stTool := {}, bTool := TRUE", group.tool);
+    if (plannedAside) {
+      fields += fmt::format(", pPlanning := ADR({}__planning)", name);
+      declarePlanning(name);
+    }
     out_.add("VAR_GLOBAL\n  /// A group of axes.\n");
     out_.add(fmt::format("  {0} : {0}__Group := ({1});\n", name, fields), group.name.span);
     out_.add("END_VAR\n");
     declareService(name, hasKinematics);
+  }
+
+  /// What plans for the group, and the program that lets it do so.
+  void declarePlanning(const std::string &name) {
+    out_.add(fmt::format("VAR_GLOBAL\n  {{attribute 'hide'}}\n"
+                         "  {0}__planning : SM3_Robotics.SMC_GROUP_PLANNING;\nEND_VAR\n"
+                         "{{attribute 'hide'}}\nPROGRAM {0}__plan\n{0}__planning();\n"
+                         "END_PROGRAM\n",
+                         name));
   }
 
   /// The program that lets the group go on, and notes what traces show.

@@ -14,10 +14,9 @@ using stride::common::anyReal;
 using stride::common::identifier;
 
 constexpr std::array kGroupParameters = {
-    identifier("name").needed(),
-    Parameter{"axes", ParameterType::NameList, true},
-    identifier("kinematics"),
-    identifier("orientation"),
+    identifier("name").needed(), Parameter{"axes", ParameterType::NameList, true},
+    identifier("kinematics"),    identifier("orientation"),
+    identifier("planning_task"),
 };
 
 constexpr std::array kPoseParameters = {
@@ -93,6 +92,7 @@ void PlcReader::readAxesGroup(const CheckedSection &section) {
   }
   group.kinematics = nameIn(section, "kinematics");
   group.orientation = nameIn(section, "orientation");
+  group.planningTask = nameIn(section, "planning_task");
   const auto needs = [&](std::string_view key, std::string_view other) {
     if (const TomlNode *value = section.table().find(key);
         value != nullptr && !section.has(other)) {

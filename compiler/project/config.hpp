@@ -118,8 +118,9 @@ struct AxesGroupConfig {
   ConfigName name;
   std::vector<ConfigName> axes; ///< those of the kinematics, then those that go along
   Span axesSpan;
-  ConfigName kinematics;  ///< a block; empty: none
-  ConfigName orientation; ///< a block that turns the tool; empty: none
+  ConfigName kinematics;   ///< a block; empty: none
+  ConfigName orientation;  ///< a block that turns the tool; empty: none
+  ConfigName planningTask; ///< empty: that of its axes
   std::vector<InputValue> parameters;
   std::vector<InputValue> orientationParameters;
   // As ST text, `(X := 1.0, …)`; empty: not given.

@@ -275,6 +275,7 @@ constexpr ErrorName kNames[] = {
     {12115, "SMC_CP_CIRCLE_START_IS_END"},
     {12122, "SMC_AXIS_GROUP_SINGULAR_PATH"},
     {12128, "SMC_CP_NO_AXIS_ORIENTATION"},
+    {12900, "SMC_AXIS_GROUP_NOT_WITH_PLANNING_TASK"},
 };
 
 } // namespace

@@ -50,6 +50,11 @@ void GroupArm::setTool(const Tool &tool) {
   outcome = kinematics_.setTool(frameOf(tool));
 }
 
+const kinematics::AnyKinematics &GroupArm::plainKinematics() const noexcept {
+  const kinematics::AnyKinematics *const plain = kinematics_.plain();
+  return kinematics_.check() == kinematics::Outcome::Done && plain != nullptr ? *plain : none_;
+}
+
 Frame<double> frameOf(const double (&pose)[kArmAxes]) {
   return {kinematics::turnFrom(kinematics::Convention::Zyz, {pose[3], pose[4], pose[5]}),
           {pose[0], pose[1], pose[2]}};

@@ -22,6 +22,10 @@ public:
   /// Another tool in place of the present one.
   void setTool(const Tool &tool);
 
+  /// Its kinematics as plain data, which nobody asks where there is none. Not of a program's own
+  /// kinematics.
+  const kinematics::AnyKinematics &plainKinematics() const noexcept;
+
 private:
   kinematics::KinematicsOf kinematics_;
   kinematics::AnyKinematics none_; ///< Where there is no kinematics: it is not asked for anything.

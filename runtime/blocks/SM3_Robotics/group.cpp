@@ -4,6 +4,7 @@
 #include "runtime/axis/set_point.hpp"
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/blocks/SM3_Robotics/overrides.hpp"
+#include "runtime/blocks/SM3_Robotics/planning.hpp"
 #include "runtime/blocks/SM3_Robotics/requests.hpp"
 #include "runtime/blocks/SM3_Robotics/tolerance.hpp"
 
@@ -18,10 +19,6 @@ using axis::AxisRef;
 using group::Obstacle;
 
 static_assert(sizeof(GroupState) <= sizeof(GroupRef::aState));
-
-/// Steps of planning and places of the path to look at, for each millisecond of the cycle.
-constexpr int32_t kSteps = 64;
-constexpr int32_t kSamples = 24;
 
 AxisRef &axisAt(const GroupRef &group, int32_t i) noexcept { return *group.apAxis.v[i]; }
 
@@ -119,8 +116,9 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) {
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping || demandsStandstill(group))
     group::brakeRide(state.motion.ride);
   const double cycle = axisAt(group, 0).fTaskCycle;
-  const auto milliseconds =
-      static_cast<int32_t>(exact::smaller(exact::larger(cycle * 1e3, 1.0), 100.0));
+  const int32_t milliseconds = millisecondsOf(cycle);
+  double forecast = 0.0; // see SMC_TuneCPKernel
+  __atomic_load(&group.fForecast, &forecast, __ATOMIC_RELAXED);
   const group::GroupCommand command{cycle,
                                     overrideOf(group),
                                     isToStop(group, state),
@@ -128,19 +126,19 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) {
                                     kSteps * milliseconds,
                                     kSamples * milliseconds,
                                     allowanceOf(group),
-                                    group.fForecast,
+                                    forecast,
                                     stopsAtOnce(group, state),
                                     state.rides != 0 ? stateOfCarrier(group, state.rides)
                                                      : motion::State{},
                                     state.jerk};
-  group::plan(state.motion, arm.arm, command);
+  planGroup(group, arm, command);
   state.forecast = group::plannedTime(state.motion);
   state.rest = {exact::kInfinity, 0};
-  if (group.fForecast > 0.0)
+  if (forecast > 0.0)
     state.rest = group::nextRest(state.motion);
   updateTriggers(ctx, state, cycle);
-  group::goOn(state.motion, arm.arm, command);
-  const double by = group::rebase(state.motion);
+  goOnGroup(group, arm, command);
+  const double by = finishCycle(group, arm, command);
   shiftTriggers(state, by);
   state.uncapped -= by;
   if (state.motion.obstacle != Obstacle::None) {
@@ -304,6 +302,8 @@ int16_t enable(Ctx &ctx, GroupRef &group) {
     const kinematics::KinematicsOf kinematics(ctx, group.itfKinematics);
     if (kinematics.check() != kinematics::Outcome::Done)
       return kinematics::errorOf(kinematics.check());
+    if (const int16_t wrong = whyNotAside(group, kinematics); wrong != 0)
+      return wrong;
     if (const GroupArm arm(ctx, group); arm.outcome != kinematics::Outcome::Done)
       return kinematics::errorOf(arm.outcome); // the tool of stride.toml does not fit
     group.uiJoints = static_cast<UINT>(kinematics.ref().joints());
@@ -312,8 +312,10 @@ int16_t enable(Ctx &ctx, GroupRef &group) {
       group.uiAxes - group.uiJoints > kMoreAxes)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;
   const uint64_t lastId = stateOf(group).motion.lastId; // what has been kept says its ids
+  const int64_t epoch = stateOf(group).motion.epoch;    // and what another task plans this
   stateOf(group) = GroupState{};
   stateOf(group).motion.lastId = lastId;
+  stateOf(group).motion.epoch = epoch + 1;
   for (auto &carrier : group.astCarrier.v)
     carrier = {};
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;

@@ -1,5 +1,5 @@
 // What is said of a group before it moves, and what it says of itself: kinematics, tool, position.
-#include "runtime/blocks/SM3_Robotics/frames.hpp"
+#include "runtime/blocks/SM3_Robotics/planning.hpp"
 
 #include "runtime/axis/axis_ref.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
@@ -28,6 +28,8 @@ int16_t setKinematics(Ctx &ctx, GroupRef &group, Interface kinematics) {
   const kinematics::KinematicsOf looked(ctx, kinematics);
   if (looked.check() != Outcome::Done)
     return kinematics::errorOf(looked.check());
+  if (const int16_t wrong = whyNotAside(group, looked); wrong != 0)
+    return wrong;
   const bool enabled = group.eState != decl::SMC_AXIS_GROUP_STATE__GroupDisabled;
   if (enabled && looked.ref().joints() != group.uiJoints)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;

@@ -31,6 +31,11 @@ public:
   /// Only after `check` has said Done. It lives as long as this object.
   [[nodiscard]] KinematicsRef ref() const;
 
+  /// The library's, as it looks now; null: it is a program's own, or there is none.
+  [[nodiscard]] const AnyKinematics *plain() const noexcept {
+    return isOwn_ || outcome_ == Outcome::NotSet ? nullptr : &any_;
+  }
+
   /// Where an axis may stand, in place of what AxisSettings has told. Of a program's own kinematics
   /// nothing changes: it keeps within limits itself, or not.
   void limit(int axis, const JointRange &range);

@@ -169,6 +169,7 @@ void moveBy(GroupMotion &group, const Arm &arm, double time) noexcept {
 
 void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
   const uint64_t lastId = group.lastId;
+  const int64_t epoch = group.epoch;
   uint8_t outcomes[kOutcomes];
   __builtin_memcpy(outcomes, group.outcome, sizeof outcomes);
   const Ride ride = group.ride;
@@ -179,6 +180,7 @@ void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
   group.left = left;
   group.tool = tool;
   group.lastId = lastId;
+  group.epoch = epoch + 1;
   __builtin_memcpy(group.outcome, outcomes, sizeof outcomes);
   path::reset(group.motion, kSettings);
   for (int32_t k = 0; k < kAxes; ++k)
@@ -249,9 +251,13 @@ double positionInMovement(const GroupMotion &group, uint64_t &id) noexcept {
   return (before.exit + way / half * (before.leg.length - before.exit)) / before.leg.length;
 }
 
-void plan(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
+void prepare(GroupMotion &group, const GroupCommand &command) noexcept {
   settle(group, !isAtRest(group));
   wish(group, command);
+}
+
+void plan(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
+  prepare(group, command);
   makeKnown(group, arm, command.allowance, command.samples);
   (void)path::think(group.motion, command.steps);
 }
@@ -260,7 +266,7 @@ bool holds(const GroupMotion &group) noexcept {
   const path::Motion &motion = group.motion;
   const path::Law &law = motion.law;
   return motion.keep > 0.0 && !path::isAtRest(motion) && !group.dwelling && motion.since == 0.0 &&
-         motion.cycles == 0 && motion.session != path::Session::None &&
+         motion.cycles == 0 && (group.awaits || motion.session != path::Session::None) &&
          !(path::stateAt(law.piece[static_cast<uint64_t>(law.first) % path::kPieces], 0.0)
                .velocity > 0.0) &&
          motion.promise < motion.keep;

@@ -134,8 +134,12 @@ struct GroupMotion {
   Ride ride;                     ///< The system in which the path is, if that moves.
   Ride left;                     ///< The one in which it was before, until that rests.
   Pose tool;                     ///< In the path's system, if that moves.
+  double planTime; ///< How much later than here plans may be made; see planning.hpp. [s]
+  int64_t epoch;   ///< How often it has been reset.
   bool dwelling;
   bool abandoned; ///< Movements are only driven to rest; see abandon.
+  bool awaits;    ///< Who plans elsewhere is at it; see planning.hpp.
+  bool alone;     ///< It comes to rest by itself, whoever plans elsewhere.
 };
 
 /// Whether the path is in a system that moves, or still goes along with one.
@@ -182,6 +186,8 @@ void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noex
 /// Its parts, one after the other: what is planned after the first one is what the second one does;
 /// the third one makes ways smaller, to keep them precise, by its result. [u]
 void plan(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept;
+/// The part of plan() that plans nothing.
+void prepare(GroupMotion &group, const GroupCommand &command) noexcept;
 void goOn(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept;
 double rebase(GroupMotion &group) noexcept;
 

@@ -301,7 +301,7 @@ void decideEnd(GroupMotion &group, const Arm &arm) noexcept {
 double neededAhead(const GroupMotion &group, const Ramp &ramp) noexcept {
   constexpr double kTime = 0.2; // for plans [s]
   constexpr double kMore = 2.2;
-  return kMore * ramp.way + (kTime + group.motion.keep) * ramp.velocity;
+  return kMore * ramp.way + (kTime + group.planTime + group.motion.keep) * ramp.velocity;
 }
 
 double neededWay(const GroupMotion &group) noexcept {
