@@ -4,6 +4,7 @@
 #include "runtime/iec/math.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace stride::sercos {
 namespace {
@@ -35,10 +36,10 @@ void putLong(std::span<uint8_t> bytes, size_t place, int32_t value) {
 
 } // namespace
 
-DriveAxis::DriveAxis(const DriveConfig &config)
-    : config_(config), modes_(modeListOf(config.settings.cyclic.controllerModes)),
-      power_(config.powerTimeout), probes_(config.probeInputs) {
-  status_.received = config.settings.cyclic.received;
+DriveAxis::DriveAxis(DriveConfig config)
+    : config_(std::move(config)), modes_(modeListOf(config_.settings.cyclic.controllerModes)),
+      power_(config_.powerTimeout), probes_(config_.probeInputs) {
+  status_.received = config_.settings.cyclic.received;
   if (modes_.modes[0] != 0)
     status_.controllerMode = command_.controllerMode = modes_.modes[0];
 }
@@ -69,7 +70,7 @@ void DriveAxis::begin(const ScalingFacts &facts, uint8_t missing,
 void DriveAxis::end() {
   const bus::DriveStatus old = status_;
   const bool shuts = shutDown_;
-  *this = DriveAxis(config_);
+  *this = DriveAxis(std::move(config_)); // within a cycle: what lies on the heap stays there
   shutDown_ = shuts;
   status_.position = old.position;
   status_.controllerMode = old.controllerMode;

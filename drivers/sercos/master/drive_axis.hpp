@@ -21,7 +21,7 @@ inline constexpr uint16_t kPower = 0xFFFF; ///< The drive does not get or lose t
 
 class DriveAxis {
 public:
-  explicit DriveAxis(const DriveConfig &config);
+  explicit DriveAxis(DriveConfig config);
 
   /// The drive is in operation; `telegram` is its AT. `missing`: StartUp::missingModes.
   void begin(const ScalingFacts &facts, uint8_t missing, std::span<const uint8_t> telegram);
