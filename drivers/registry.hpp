@@ -10,8 +10,8 @@
 #include <string_view>
 
 /// Every driver by its folder, which is its namespace, too: it has a `kSchema` (schema.hpp),
-/// `makeDriver` and `driveDataLayout` (axis_drivers.hpp). A new driver: a name here, and the include
-/// of its schema above.
+/// `makeDriver` and `driveDataLayout` (axis_drivers.hpp). A new driver: a name here, and the
+/// include of its schema above.
 #define STRIDE_AXIS_DRIVERS(DRIVER) DRIVER(dummy) DRIVER(can) DRIVER(sercos)
 
 namespace stride::drivers {

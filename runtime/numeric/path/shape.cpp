@@ -141,29 +141,36 @@ Integral integral(const SpeedOf &speed, double from, double to) noexcept {
   return {sum.gauss * half, sum.kronrod * half};
 }
 
+/// Gauss's error goes down with the 14th power of what separates the interval from where the speed
+/// is not smooth, Kronrod's with the 24th: if the first is 1e-8, the other is below 2e-14.
+bool agrees(const Integral &part) noexcept {
+  return exact::fabs(part.kronrod - part.gauss) <= 1e-8 * part.kronrod;
+}
+
 /// The length of a polynomial that bends little, as corners do; less than 0 if it bends too much
-/// for that. Gauss's error goes down with the 14th power of what separates the interval from where
-/// the speed is not smooth, Kronrod's with the 24th: if the first is 1e-10, the other is below
-/// 1e-16. If Kronrod's is 1e-12 over the whole, that is 3.2, and 4.7 or more for either half, whose
-/// error is then below 1e-16.
+/// for that.
 double smoothLength(const Shape &shape) noexcept {
-  constexpr double kGaussAgreed = 1e-10;
-  constexpr double kHalvesAgreed = 1e-12;
   SpeedOf speed{};
+  Vector3 last = numeric::kZero;
   double most = 0.0;
   for (int k = 0; k < 5; ++k) {
-    speed.c[k] = shape.v[k + 1] * (k + 1.0);
-    const Vector3 &c = speed.c[k];
+    const Vector3 c = shape.v[k + 1] * (k + 1.0);
+    speed.c[k] = c;
+    last = last + c;
     most = exact::larger(
         most, exact::larger(exact::fabs(c.x), exact::larger(exact::fabs(c.y), exact::fabs(c.z))));
   }
   if (!(most > 1e-90 && most < 1e90))
     return -1.0;
-  const Integral whole = integral(speed, 0.0, 1.0);
-  if (exact::fabs(whole.kronrod - whole.gauss) <= kGaussAgreed * whole.kronrod)
-    return whole.kronrod;
-  const double halves = integral(speed, 0.0, 0.5).kronrod + integral(speed, 0.5, 1.0).kronrod;
-  return exact::fabs(whole.kronrod - halves) <= kHalvesAgreed * halves ? halves : -1.0;
+  if (dot(speed.c[0], last) >
+      0.5 * norm(speed.c[0]) * norm(last)) { // turns by less than 60 degrees
+    const Integral whole = integral(speed, 0.0, 1.0);
+    if (agrees(whole))
+      return whole.kronrod;
+  }
+  const Integral first = integral(speed, 0.0, 0.5);
+  const Integral second = integral(speed, 0.5, 1.0);
+  return agrees(first) && agrees(second) ? first.kronrod + second.kronrod : -1.0;
 }
 
 /// An arc of a circle or an ellipse, without its length.

@@ -308,8 +308,8 @@ bool mayBe(const Meeting &meeting, const PathObject &before, const PathObject &a
 
 CornerChange makeCorner(PathObject &before, PathObject &after, const PieceRules &rules,
                         BeforeCorner &known, PathObject &piece) noexcept {
-  Meeting meeting{};
-  Ends ends{};
+  Meeting meeting;
+  Ends ends;
   const double room = known.room;
   ObjectShape shape = known.shape;
   const bool isDescribed = known.isDescribed || describeAtCorner(before, shape);
