@@ -46,7 +46,8 @@ std::optional<LssMaster::Identity> LssMaster::fastScan() {
   if (!scan(0, kEverybody, 0, 0))
     return std::nullopt;
   Identity identity{};
-  for (uint8_t part = 0; part < identity.size(); ++part) {
+  for (size_t at = 0; at < identity.size(); ++at) {
+    const auto part = static_cast<uint8_t>(at);
     uint32_t &number = identity[part];
     for (uint8_t bit = kBits; bit-- > 0;) // nobody has a 0 here: it is a 1
       if (!scan(number, bit, part, part))
@@ -61,7 +62,7 @@ std::optional<LssMaster::Identity> LssMaster::fastScan() {
 LssResult LssMaster::select(const Identity &identity) {
   leave();
   std::optional<Frame> answer;
-  for (uint8_t part = 0; part < identity.size(); ++part) {
+  for (size_t part = 0; part < identity.size(); ++part) {
     const bool last = part + 1U == identity.size();
     answer = exchange_(request(static_cast<uint8_t>(kSelectVendor + part), identity[part]), last);
   }

@@ -10,8 +10,6 @@ using numeric::dot;
 using numeric::kDegree;
 using numeric::norm;
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// How far an end may lie beside the curve of the parameters, as a part of its size: more than what
 /// the digits of a text leave, less than what anybody means.
 constexpr double kSlack = 0.01;

@@ -31,13 +31,13 @@ protected:
     ScriptedDrive &drive = drives.emplace_back(address);
     drive.feedback = dword(1000U * address);
     drive.length = 8;
-    DriveConfig &drives_ = config.drives.emplace_back();
-    drives_.address = address;
+    DriveConfig &added = config.drives.emplace_back();
+    added.address = address;
     CyclicWish wish;
     wish.controlType = 4;
     std::vector<std::string> errors;
-    drives_.settings.cyclic = planCyclic(wish, errors);
-    return drives_;
+    added.settings.cyclic = planCyclic(wish, errors);
+    return added;
   }
 
   void make() {
