@@ -338,7 +338,7 @@ TEST(GroupPlanning, RestsWhereNothingIsPlannedAndGoesOn) {
 /// A long way at speed: 3 axes with known limits.
 class LongWay {
 public:
-  LongWay() : machine_(gantry()), tasks_(long_(), machine_, kCycle) {}
+  LongWay() : machine_(gantry()), tasks_(longMotion(), machine_, kCycle) {}
 
   static constexpr double kCycle = 0.001;
   static constexpr double kSpeed = 200;
@@ -362,7 +362,7 @@ public:
   static constexpr double kKeep = 0.3;
 
 private:
-  std::unique_ptr<GroupMotion> long_() {
+  std::unique_ptr<GroupMotion> longMotion() {
     for (AxisLimits &limits : machine_.limits)
       limits = {kSpeed, 2000, 40'000, -1e6, 1e6};
     const double to[kAxes] = {5000};

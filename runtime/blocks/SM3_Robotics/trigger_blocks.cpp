@@ -153,7 +153,7 @@ void decl::SMC_TuneCPKernel::body__(::stride::Ctx & /*ctx__*/) {
   if (AxisGroup == nullptr)
     return;
   const double time = fPlanningForecastDuration;
-  const double forecast = time > 0.0 && ::stride::exact::isfinite(time) ? time : 0.0;
+  double forecast = time > 0.0 && ::stride::exact::isfinite(time) ? time : 0.0;
   // SoftMotion 3 has it called in the task that plans.
   __atomic_store(&AxisGroup->fForecast, &forecast, __ATOMIC_RELAXED);
 }
