@@ -1,11 +1,15 @@
 #include "drivers/sercos/parameter_file.hpp"
 
+#include "runtime/common/setup_text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
 
 namespace stride::sercos {
 namespace {
+
+using common::trimmed;
 
 constexpr int64_t kLastIdn = UINT16_MAX;
 constexpr std::string_view kElement = "<Parameter ";
@@ -14,13 +18,6 @@ struct Line {
   std::string_view number;
   std::string_view value;
 };
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// `Number="41"` … `>100</Parameter>`.
 bool xmlLine(std::string_view text, Line &line) {

@@ -1,6 +1,6 @@
 #include "drivers/can/master/drive402.hpp"
 
-#include "runtime/iec/math.h"
+#include "runtime/bus/drive_values.hpp"
 
 #include <algorithm>
 
@@ -14,17 +14,6 @@ constexpr uint8_t kPositiveLimit = 2;
 constexpr uint8_t kHomeSwitch = 4;
 constexpr uint8_t kEdgeBits = 3;
 constexpr unsigned kProbeBits = 8; ///< Of 60B8h and 60B9h for each.
-/// At rest: so little way in so many cycles.
-constexpr int32_t kRestIncrements = 2;
-constexpr uint32_t kRestCycles = 5;
-
-/// The nearest whole number within the limits; what is no number is 0.
-int32_t saturated(double value, double limit) {
-  const double whole = stride::floor(value + 0.5);
-  if (!(whole >= -limit)) // NaN comes here, too
-    return whole < 0 ? static_cast<int32_t>(-limit) : 0;
-  return static_cast<int32_t>(std::min(whole, limit));
-}
 
 uint8_t modeMask(uint8_t controllerMode) { return static_cast<uint8_t>(1U << controllerMode); }
 
@@ -131,9 +120,9 @@ void Drive402::readActual(const Signals &signals) {
   const auto way = static_cast<int32_t>(status_.position - before_);
   before_ = status_.position;
   const bool moves = (plan_.received & cyclic::kPosition) != 0
-                         ? way > kRestIncrements || way < -kRestIncrements
+                         ? way > bus::kRestIncrements || way < -bus::kRestIncrements
                          : rawVelocity != 0;
-  resting_ = moves ? 0 : std::min(resting_ + 1, kRestCycles);
+  resting_ = moves ? 0 : std::min(resting_ + 1, bus::kRestCycles);
   constexpr uint8_t kBoth = cyclic::kPosition | cyclic::kVelocity;
   if ((plan_.received & kBoth) == kBoth && follows())
     doubtful_ = check_.step(way, status_.velocity * config_.cycle) || doubtful_;
@@ -251,12 +240,12 @@ void Drive402::chooseMode() {
 
 int32_t Drive402::driveVelocity(double velocity) const {
   constexpr double kMost = 2147483647.0;
-  return saturated(velocity / config_.velocityScale, kMost);
+  return bus::saturated(velocity / config_.velocityScale, kMost);
 }
 
 int32_t Drive402::driveTorque(double torque) const {
   constexpr double kMost = 32767;
-  return ratedTorque() > 0 ? saturated(torque / ratedTorque() * kPerMille, kMost) : 0;
+  return ratedTorque() > 0 ? bus::saturated(torque / ratedTorque() * kPerMille, kMost) : 0;
 }
 
 // What is regulated follows the command. What is not is where the axis is, so that nothing jumps
@@ -298,7 +287,7 @@ void Drive402::writeTargets(Signals &signals) {
   if (regulated == kVelocityControl)
     targetMoves_ = velocity != 0;
   else if (regulated == kTorqueControl)
-    targetMoves_ = resting_ < kRestCycles;
+    targetMoves_ = resting_ < bus::kRestCycles;
   else
     targetMoves_ = position != lastTarget_;
   lastTarget_ = position;
@@ -315,7 +304,9 @@ bool Drive402::velocityDoubtful() {
   return doubtful;
 }
 
-bool Drive402::atRest() const { return !isRegulated(power_.state()) || resting_ >= kRestCycles; }
+bool Drive402::atRest() const {
+  return !isRegulated(power_.state()) || resting_ >= bus::kRestCycles;
+}
 
 bool Drive402::commandedToMove() const { return follows() && targetMoves_; }
 

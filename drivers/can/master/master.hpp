@@ -2,10 +2,10 @@
 #ifndef STRIDE_DRIVERS_CAN_MASTER_MASTER_HPP
 #define STRIDE_DRIVERS_CAN_MASTER_MASTER_HPP
 
-#include "drivers/can/master/news.hpp"
 #include "drivers/can/master/node.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/port/port.hpp"
+#include "runtime/bus/news.hpp"
 
 #include <array>
 #include <cstdint>
@@ -49,7 +49,7 @@ public:
   Master(const MasterConfig &config, std::unique_ptr<Port> port);
 
   void attach(bus::DriverHost &host) { news_.attach(host); }
-  [[nodiscard]] News &news() { return news_; }
+  [[nodiscard]] bus::News &news() { return news_; }
 
   /// First in a cycle: SYNC, and what has come.
   void executeStart();
@@ -108,7 +108,7 @@ private:
 
   MasterConfig config_;
   std::unique_ptr<Port> port_;
-  News news_;
+  bus::News news_;
   std::vector<Node> nodes_;
   std::vector<uint32_t> cyclicBits_; ///< Of each node's synchronous PDOs.
   std::array<Route, Frame::kLastId + 1> routes_{};

@@ -93,7 +93,7 @@ void Node::tpdo(size_t place, const Frame &frame) {
     ++arrived_[place];
 }
 
-void Node::emcy(const Frame &frame, News &news) {
+void Node::emcy(const Frame &frame, bus::News &news) {
   const uint32_t before = emcy_.count();
   const uint16_t old = emcy_.code();
   emcy_.received(frame);
@@ -113,7 +113,7 @@ void Node::emcy(const Frame &frame, News &news) {
 
 void Node::beginReceive() { arrived_ = {}; }
 
-void Node::endReceive(uint32_t syncs, News &news) {
+void Node::endReceive(uint32_t syncs, bus::News &news) {
   sdo_.cycle();
   supervision_.cycle();
   if (phase_ != Phase::Started)
@@ -125,7 +125,7 @@ void Node::endReceive(uint32_t syncs, News &news) {
   serveSdo(news);
 }
 
-void Node::watchDrive(News &news) {
+void Node::watchDrive(bus::News &news) {
   drive_.read(signals_, emcy_.code());
   drive_.reach(communication());
   if (drive_.velocityDoubtful())
@@ -166,7 +166,7 @@ bool Node::pdosComplete() const {
   return true;
 }
 
-void Node::watch(News &news) {
+void Node::watch(bus::News &news) {
   if (loss_ == NodeLoss::None) {
     if (supervision_.bootUps() != bootUps_)
       lose(NodeLoss::Restarted, news);
@@ -189,7 +189,7 @@ void Node::watch(News &news) {
   saidSilent_ = silent_;
 }
 
-void Node::lose(NodeLoss loss, News &news) {
+void Node::lose(NodeLoss loss, bus::News &news) {
   if (phase_ != Phase::Started || loss_ != NodeLoss::None)
     return;
   loss_ = loss;
@@ -236,7 +236,7 @@ void Node::rpdoSent(size_t place, bool taken) {
   one.refresh = refreshCycles_;
 }
 
-void Node::endOfPdos(News &news) {
+void Node::endOfPdos(bus::News &news) {
   const bool failed =
       std::any_of(rpdos_.begin(), rpdos_.end(), [](const Rpdo &one) { return one.due; });
   const uint32_t before = failedSends_;
@@ -246,7 +246,7 @@ void Node::endOfPdos(News &news) {
              " does not get its set values: the queue of the interface is full");
 }
 
-bus::StartUp Node::init(uint16_t &progress, bus::Message &message, News &news) {
+bus::StartUp Node::init(uint16_t &progress, bus::Message &message, bus::News &news) {
   if (phase_ == Phase::Started)
     return bus::StartUp::Started;
   if (phase_ != Phase::Starting) {
@@ -268,7 +268,7 @@ bus::StartUp Node::init(uint16_t &progress, bus::Message &message, News &news) {
   return result;
 }
 
-void Node::started(News &news) {
+void Node::started(bus::News &news) {
   phase_ = Phase::Started;
   bootUps_ = supervision_.bootUps();
   if (isDrive())
@@ -278,7 +278,7 @@ void Node::started(News &news) {
   sayLacks(news);
 }
 
-void Node::sayLacks(News &news) const {
+void Node::sayLacks(bus::News &news) const {
   const uint32_t number = config_.plan.node;
   if (isDrive() && !isExactPeriod(config_.cycle))
     news.say("node ", number, ": its interpolation period (60C2h) cannot be exactly the cycle");
@@ -310,7 +310,7 @@ void Node::reset() {
 }
 
 /// The SDO channel in operation: first what the drive needs, then what programs ask.
-void Node::serveSdo(News &news) {
+void Node::serveSdo(bus::News &news) {
   if (user_ != SdoUser::None) {
     if (sdo_.state() == SdoClient::State::Busy)
       return;
@@ -337,7 +337,7 @@ void Node::serveSdo(News &news) {
   }
 }
 
-void Node::wishAnswered(News &news) {
+void Node::wishAnswered(bus::News &news) {
   ObjectAnswer answer{sdo_.state() == SdoClient::State::Done, 0};
   for (size_t i = 0; answer.done && wish_.kind == ObjectWish::Kind::Read && i < sdo_.size(); ++i)
     answer.value |= uint32_t{wishBytes_[i]} << 8 * i;

@@ -4,13 +4,13 @@
 
 #include "drivers/can/master/drive402.hpp"
 #include "drivers/can/master/emcy.hpp"
-#include "drivers/can/master/news.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/master/parameter_transfer.hpp"
 #include "drivers/can/master/sdo_client.hpp"
 #include "drivers/can/master/start_up.hpp"
 #include "drivers/can/master/supervision.hpp"
 #include "drivers/can/port/port.hpp"
+#include "runtime/bus/news.hpp"
 
 #include <array>
 #include <cstdint>
@@ -35,7 +35,7 @@ public:
   void tpdo(size_t place, const Frame &frame);
   void sdoAnswer(const Frame &frame) { sdo_.received(frame); }
   void heartbeat(const Frame &frame) { supervision_.received(frame); }
-  void emcy(const Frame &frame, News &news);
+  void emcy(const Frame &frame, bus::News &news);
 
   /// An I/O device: lets those who use its bytes know whether it works.
   void showIo() noexcept;
@@ -43,7 +43,7 @@ public:
   /// Before the frames of a cycle …
   void beginReceive();
   /// … and after them: judges what has come. `syncs`: that there have been since the last time.
-  void endReceive(uint32_t syncs, News &news);
+  void endReceive(uint32_t syncs, bus::News &news);
   /// There has been a SYNC.
   void syncPassed() { atSync_ = {}; }
   /// All its synchronous TPDOs have come since the last SYNC.
@@ -59,7 +59,7 @@ public:
   /// What it is told comes too late, cycle after cycle.
   void setLate(bool late) { late_ = late; }
   /// All RPDOs of the cycle have been tried.
-  void endOfPdos(News &news);
+  void endOfPdos(bus::News &news);
 
   // What else it is told: one frame after the other, as there is room.
   [[nodiscard]] NmtCommand nmt() const { return nmt_; }
@@ -67,9 +67,9 @@ public:
   [[nodiscard]] Supervision &supervision() { return supervision_; }
   [[nodiscard]] SdoClient &sdo() { return sdo_; }
 
-  bus::StartUp init(uint16_t &progress, bus::Message &message, News &news);
+  bus::StartUp init(uint16_t &progress, bus::Message &message, bus::News &news);
   void reset();
-  void lose(NodeLoss loss, News &news);
+  void lose(NodeLoss loss, bus::News &news);
 
   [[nodiscard]] bus::DriveStatus status() const;
   [[nodiscard]] bool communication() const;
@@ -99,18 +99,18 @@ private:
     bool known = false; ///< The drive has what it was told last.
   };
 
-  void watch(News &news);
-  void watchDrive(News &news);
+  void watch(bus::News &news);
+  void watchDrive(bus::News &news);
   [[nodiscard]] bool isDrive() const { return config_.kind == NodeConfig::Kind::Drive; }
   [[nodiscard]] bool isIo() const { return config_.kind == NodeConfig::Kind::Io; }
   bool takeOver(size_t place, const Frame &frame);
   [[nodiscard]] Frame rpdoFrame(size_t place) const;
   void countPdos(uint32_t syncs);
-  void started(News &news);
-  void serveSdo(News &news);
-  void wishAnswered(News &news);
+  void started(bus::News &news);
+  void serveSdo(bus::News &news);
+  void wishAnswered(bus::News &news);
   void beginWish(const ObjectWish &wish);
-  void sayLacks(News &news) const;
+  void sayLacks(bus::News &news) const;
 
   NodeConfig config_;
   Signals signals_;

@@ -1,5 +1,7 @@
 #include "drivers/can/plan/drive_settings.hpp"
 
+#include "runtime/common/setup_text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,6 +11,10 @@
 
 namespace stride::can {
 namespace {
+
+using common::linesOf;
+using common::trimmed;
+using common::wholeNumber;
 
 /// Types of start-up parameters, by their names in IEC 61131-3.
 struct TypeRow {
@@ -44,32 +50,6 @@ constexpr std::array<OwnedRow, 9> kOwned = {{
     {0x6060, 0x6061, "the controller mode"},
     {0x60C2, 0x60C2, "the cycle"},
 }};
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-std::vector<std::string> linesOf(const std::string &text) {
-  std::vector<std::string> lines;
-  for (size_t at = 0; at < text.size();) {
-    const size_t end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
-std::optional<uint64_t> wholeNumber(std::string_view digits, int base) {
-  uint64_t value = 0;
-  const auto [end, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
-  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size())
-    return std::nullopt;
-  return value;
-}
 
 bool fail(std::string &error, std::string text) {
   error = std::move(text);
@@ -110,34 +90,8 @@ bool objectOf(std::string_view text, Object &object, std::optional<uint64_t> *bi
   return *bits ? true : fail(error, "the bits of an object are a number");
 }
 
-/// A number without its type: "-35", "16#1F", "2#1010", "1_000".
-struct Number {
-  uint64_t magnitude = 0;
-  bool negative = false;
-};
-std::optional<Number> numberOf(std::string_view text) {
-  Number number;
-  number.negative = text.starts_with('-');
-  if (number.negative || text.starts_with('+'))
-    text.remove_prefix(1);
-  int base = 10;
-  if (const size_t mark = text.find('#'); mark != std::string_view::npos) {
-    const auto given = wholeNumber(text.substr(0, mark), 10);
-    if (!given || (*given != 2 && *given != 8 && *given != 16))
-      return std::nullopt;
-    base = static_cast<int>(*given);
-    text.remove_prefix(mark + 1);
-  }
-  std::string digits(text);
-  std::erase(digits, '_');
-  const auto magnitude = wholeNumber(digits, base);
-  if (!magnitude)
-    return std::nullopt;
-  number.magnitude = *magnitude;
-  return number;
-}
-
-std::optional<uint32_t> fitted(const Number &number, const ObjectForm &form, bool isBool) {
+std::optional<uint32_t> fitted(const common::WholeNumber &number, const ObjectForm &form,
+                               bool isBool) {
   const unsigned bits = 8U * form.bytes;
   const uint64_t most = isBool ? 1 : (uint64_t{1} << (form.isSigned ? bits - 1 : bits)) - 1;
   const uint64_t least = form.isSigned ? most + 1 : 0; // below zero
@@ -189,7 +143,7 @@ bool valueOf(std::string_view text, SdoWrite &write, std::string &error) {
                        "in UINT#500");
   if (known.bytes != 0 && known.bytes != form.bytes)
     return fail(error, "this object has " + std::to_string(8 * known.bytes) + " bits");
-  const auto number = numberOf(text);
+  const auto number = wholeNumber(text);
   if (!number)
     return fail(error, "this is no whole number");
   const auto value = fitted(*number, form, type != nullptr && type->name == "BOOL");

@@ -1,6 +1,7 @@
 // What the controllers of a simulated drive do in one of their cycles.
 #include "drivers/can/simulation/drive402.hpp"
 
+#include "drivers/dummy/signals.hpp"
 #include "runtime/iec/math.h"
 
 #include <algorithm>
@@ -9,16 +10,13 @@
 namespace stride::can::simulation {
 namespace {
 
+using dummy::rounded;
+using dummy::towards;
+
 constexpr double kNanoseconds = 1e9;
 constexpr double kPerMille = 1000;
 constexpr int64_t kShortestPeriod = 50'000;        // ns
 constexpr int64_t kLongestPeriod = 10'000'000'000; // ns
-
-int64_t rounded(double value) { return static_cast<int64_t>(stride::floor(value + 0.5)); }
-
-double towards(double from, double to, double most) {
-  return from + std::clamp(to - from, -most, most);
-}
 
 } // namespace
 

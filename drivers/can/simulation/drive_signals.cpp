@@ -2,6 +2,7 @@
 // values on the bus, and what programs see and disturb.
 #include "drivers/can/simulation/drive402.hpp"
 
+#include "drivers/dummy/signals.hpp"
 #include "runtime/iec/math.h"
 
 #include <algorithm>
@@ -9,25 +10,15 @@
 namespace stride::can::simulation {
 namespace {
 
+using dummy::rising;
+using dummy::rounded;
+using dummy::rounded16;
+using dummy::rounded32;
+
 constexpr double kMilliseconds = 1000;
 
 void put(Entry &entry, int64_t value) {
   entry.value = Dictionary::fitted(entry.row.type, static_cast<uint64_t>(value));
-}
-
-int64_t rounded(double value, double most) {
-  return static_cast<int64_t>(stride::floor(std::clamp(value, -most, most) + 0.5));
-}
-
-/// As far as 32 bits reach.
-int64_t rounded32(double value) { return rounded(value, 2147483647.0); }
-int64_t rounded16(double value) { return rounded(value, 32767.0); }
-
-/// Whether `now` has changed from FALSE to TRUE; `old` follows.
-bool rising(BOOL now, BOOL &old) {
-  const bool edge = now != 0 && old == 0;
-  old = now;
-  return edge;
 }
 
 // 60B8h and 60B9h of the first probe; those of the second one are eight bits higher.

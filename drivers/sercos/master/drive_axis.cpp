@@ -1,7 +1,7 @@
 #include "drivers/sercos/master/drive_axis.hpp"
 
 #include "drivers/sercos/ring/ring.hpp"
-#include "runtime/iec/math.h"
+#include "runtime/bus/drive_values.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -9,21 +9,10 @@
 namespace stride::sercos {
 namespace {
 
-/// At rest: so little way in so many cycles.
-constexpr int32_t kRestIncrements = 2;
-constexpr uint32_t kRestCycles = 5;
 /// S-0-0011: S-0-0129 says more.
 constexpr uint16_t kManufacturer = 0x8000;
 constexpr double kLargestVelocity = 2147483647.0;
 constexpr double kLargestTorque = 32767;
-
-/// The nearest whole number within the limits; what is no number is 0.
-int32_t saturated(double value, double limit) {
-  const double whole = stride::floor(value + 0.5);
-  if (!(whole >= -limit)) // NaN comes here, too
-    return whole < 0 ? static_cast<int32_t>(-limit) : 0;
-  return static_cast<int32_t>(std::min(whole, limit));
-}
 
 int32_t longAt(std::span<const uint8_t> bytes, size_t place) {
   return static_cast<int32_t>(wordAt(bytes, place) | uint32_t{wordAt(bytes, place + 2)} << 16U);
@@ -108,9 +97,9 @@ void DriveAxis::readActual(std::span<const uint8_t> telegram) {
   const auto way = static_cast<int32_t>(status_.position - before_);
   before_ = status_.position;
   const bool moves = (status_.received & cyclic::kPosition) != 0
-                         ? way > kRestIncrements || way < -kRestIncrements
+                         ? way > bus::kRestIncrements || way < -bus::kRestIncrements
                          : status_.velocity != 0;
-  resting_ = moves ? 0 : std::min(resting_ + 1, kRestCycles);
+  resting_ = moves ? 0 : std::min(resting_ + 1, bus::kRestCycles);
 }
 
 void DriveAxis::readErrors() {
@@ -222,11 +211,11 @@ void DriveAxis::writeTargets(std::span<uint8_t> record) {
   const CyclicRecord &mdt = config_.settings.cyclic.mdt;
   const uint8_t regulated = follows() ? status_.controllerMode : uint8_t{0};
   const uint32_t position = targetPosition(regulated == kPositionControl);
-  const int32_t velocity = saturated(targetVelocity() / velocityUnit_, kLargestVelocity);
+  const int32_t velocity = bus::saturated(targetVelocity() / velocityUnit_, kLargestVelocity);
   if (regulated == kVelocityControl)
     targetMoves_ = velocity != 0;
   else if (regulated == kTorqueControl)
-    targetMoves_ = resting_ < kRestCycles;
+    targetMoves_ = resting_ < bus::kRestCycles;
   else
     targetMoves_ = position != lastTarget_;
   lastTarget_ = position;
@@ -235,12 +224,12 @@ void DriveAxis::writeTargets(std::span<uint8_t> record) {
   if (const uint32_t place = mdt.placeOf(idns::kVelocityCommand); place != 0)
     putLong(record, place, velocity);
   if (const uint32_t place = mdt.placeOf(idns::kTorqueCommand); place != 0)
-    putWord(
-        record, place,
-        static_cast<uint16_t>(saturated(targetTorque(regulated) / torqueUnit_, kLargestTorque)));
+    putWord(record, place,
+            static_cast<uint16_t>(
+                bus::saturated(targetTorque(regulated) / torqueUnit_, kLargestTorque)));
 }
 
-bool DriveAxis::atRest() const { return !power_.torque() || resting_ >= kRestCycles; }
+bool DriveAxis::atRest() const { return !power_.torque() || resting_ >= bus::kRestCycles; }
 
 ServiceWish DriveAxis::wish() const {
   using Kind = ServiceWish::Kind;

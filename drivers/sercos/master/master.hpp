@@ -3,11 +3,11 @@
 #ifndef STRIDE_DRIVERS_SERCOS_MASTER_MASTER_HPP
 #define STRIDE_DRIVERS_SERCOS_MASTER_MASTER_HPP
 
-#include "drivers/sercos/master/news.hpp"
 #include "drivers/sercos/master/ring_control.hpp"
 #include "drivers/sercos/master/slave.hpp"
 #include "drivers/sercos/protocol/timing.hpp"
 #include "drivers/sercos/ring/ring.hpp"
+#include "runtime/bus/news.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -86,7 +86,7 @@ private:
 
   MasterConfig config_;
   std::unique_ptr<Ring> ring_;
-  News news_;
+  bus::News news_;
   std::vector<Slave> slaves_;
   std::vector<bool> wanted_; ///< Somebody asks for its start-up.
   std::vector<bool> reset_;  ///< In this cycle.

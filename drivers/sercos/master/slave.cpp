@@ -44,7 +44,7 @@ void Slave::fail(const bus::Message &fault) {
 
 void Slave::missed() { ++misses_; }
 
-void Slave::received(const DriveTelegram &telegram, News &news) {
+void Slave::received(const DriveTelegram &telegram, bus::News &news) {
   misses_ = 0;
   heard_ = true;
   telegram_ = telegram;
@@ -94,7 +94,7 @@ void Slave::fill(std::span<uint8_t> record) {
 
 // The service channel in operation: in turns what the axis needs and what programs ask.
 
-void Slave::serve(News &news) {
+void Slave::serve(bus::News &news) {
   if (owner_ != Owner::Nobody && channel_.state() != ServiceChannel::State::Busy)
     end(news);
   if (owner_ == Owner::Nobody)
@@ -124,7 +124,7 @@ void Slave::begin() {
   }
 }
 
-void Slave::end(News &news) {
+void Slave::end(bus::News &news) {
   if (owner_ == Owner::Axis)
     endWish(news);
   else
@@ -133,7 +133,7 @@ void Slave::end(News &news) {
     owner_ = Owner::Nobody;
 }
 
-void Slave::endWish(News &news) {
+void Slave::endWish(bus::News &news) {
   ServiceAnswer answer;
   answer.done = channel_.state() == ServiceChannel::State::Done;
   if (answer.done && wish_.kind != ServiceWish::Kind::Write)

@@ -4,11 +4,11 @@
 
 #include "drivers/sercos/master/drive_axis.hpp"
 #include "drivers/sercos/master/drive_config.hpp"
-#include "drivers/sercos/master/news.hpp"
 #include "drivers/sercos/master/parameter_transfer.hpp"
 #include "drivers/sercos/master/service_channel.hpp"
 #include "drivers/sercos/master/start_up.hpp"
 #include "drivers/sercos/ring/ring.hpp"
+#include "runtime/bus/news.hpp"
 
 #include <cstdint>
 #include <span>
@@ -28,7 +28,7 @@ public:
   void plan(const DriveTimes &times) { startUp_.plan(times); }
 
   /// Its AT of this cycle.
-  void received(const DriveTelegram &telegram, News &news);
+  void received(const DriveTelegram &telegram, bus::News &news);
   /// There was none, or it was distorted.
   void missed();
   /// Cycles in a row without one, since it has been expected.
@@ -66,10 +66,10 @@ public:
 private:
   enum class Owner : uint8_t { Nobody, Axis, Parameters };
 
-  void serve(News &news);
+  void serve(bus::News &news);
   void begin();
-  void end(News &news);
-  void endWish(News &news);
+  void end(bus::News &news);
+  void endWish(bus::News &news);
   bool answerFromTelegram(const bus::ParameterRequest &request);
   bool writeToTelegram(const bus::ParameterRequest &request);
 

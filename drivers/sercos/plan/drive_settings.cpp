@@ -1,10 +1,14 @@
 #include "drivers/sercos/plan/drive_settings.hpp"
 
+#include "runtime/common/setup_text.hpp"
+
 #include <algorithm>
 #include <charconv>
 
 namespace stride::sercos {
 namespace {
+
+using common::linesOf;
 
 /// IDNs that the driver writes from what it knows, and of stride.toml what decides about them.
 struct OwnedRow {
@@ -56,16 +60,6 @@ constexpr std::array<LatestRow, 14> kLatest = {{
     {idns::kPositionPolarity, 3},
     {idns::kAccelerationScaling, 3},
 }};
-
-std::vector<std::string> linesOf(const std::string &text) {
-  std::vector<std::string> lines;
-  for (size_t at = 0; at < text.size();) {
-    const size_t end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
 
 class Reader {
 public:

@@ -1,5 +1,7 @@
 #include "drivers/sercos/plan/idn_value.hpp"
 
+#include "runtime/common/setup_text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,47 +10,21 @@
 namespace stride::sercos {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos)
-    return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
+using common::trimmed;
+using common::wholeNumber;
 
 bool fail(std::string &error, std::string text) {
   error = std::move(text);
   return false;
 }
 
-std::optional<uint64_t> wholeNumber(std::string_view digits, int base) {
-  uint64_t value = 0;
-  const auto [end, problem] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), value, base);
-  if (digits.empty() || problem != std::errc() || end != digits.data() + digits.size())
-    return std::nullopt;
-  return value;
-}
-
 /// "-12", "16#FF", "1_000".
 std::optional<int64_t> numberOf(std::string_view text) {
-  const bool negative = text.starts_with('-');
-  if (negative || text.starts_with('+'))
-    text.remove_prefix(1);
-  int base = 10;
-  if (const size_t mark = text.find('#'); mark != std::string_view::npos) {
-    const auto given = wholeNumber(text.substr(0, mark), 10);
-    if (!given || (*given != 2 && *given != 8 && *given != 16))
-      return std::nullopt;
-    base = static_cast<int>(*given);
-    text.remove_prefix(mark + 1);
-  }
-  std::string digits(text);
-  std::erase(digits, '_');
-  const auto magnitude = wholeNumber(digits, base);
-  if (!magnitude || *magnitude > static_cast<uint64_t>(INT64_MAX))
+  const auto number = wholeNumber(text);
+  if (!number || number->magnitude > static_cast<uint64_t>(INT64_MAX))
     return std::nullopt;
-  const auto value = static_cast<int64_t>(*magnitude);
-  return negative ? -value : value;
+  const auto value = static_cast<int64_t>(number->magnitude);
+  return number->negative ? -value : value;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // What the controllers of a simulated drive do in a cycle.
 #include "drivers/sercos/simulation/simulated_drive.hpp"
 
+#include "drivers/dummy/signals.hpp"
 #include "runtime/iec/math.h"
 
 #include <algorithm>
@@ -8,6 +9,9 @@
 
 namespace stride::sercos::simulation {
 namespace {
+
+using dummy::rounded;
+using dummy::towards;
 
 using namespace idns;
 
@@ -17,12 +21,6 @@ constexpr int64_t kNoSwitch = 0x0020;
 constexpr int64_t kNoMark = 0x0040;
 // Bits of S-0-0055, S-0-0043 and S-0-0085: of the command value; that of the feedback is 0x04.
 constexpr int64_t kInvertCommand = 0x0001;
-
-int64_t rounded(double value) { return static_cast<int64_t>(stride::floor(value + 0.5)); }
-
-double towards(double from, double to, double most) {
-  return from + std::clamp(to - from, -most, most);
-}
 
 double signOf(const IdnList &list, Idn polarity) {
   return (list.value(polarity) & kInvertCommand) != 0 ? -1 : 1;

@@ -2,6 +2,7 @@
 // on the ring, and what programs see and disturb.
 #include "drivers/sercos/simulation/simulated_drive.hpp"
 
+#include "drivers/dummy/signals.hpp"
 #include "runtime/iec/math.h"
 
 #include <algorithm>
@@ -9,6 +10,10 @@
 
 namespace stride::sercos::simulation {
 namespace {
+
+using dummy::rising;
+using dummy::rounded16;
+using dummy::rounded32;
 
 using namespace idns;
 
@@ -20,18 +25,6 @@ constexpr uint16_t kTargetOutside = 0x2000;  // of S-0-0012
 constexpr uint16_t kStandstill = 0x0002;
 constexpr uint16_t kTorqueLimited = 0x0010;
 constexpr uint16_t kInPositionBit = 0x0040;
-
-int64_t rounded(double value, double most) {
-  return static_cast<int64_t>(stride::floor(std::clamp(value, -most, most) + 0.5));
-}
-int64_t rounded32(double value) { return rounded(value, 2147483647.0); }
-int64_t rounded16(double value) { return rounded(value, 32767.0); }
-
-bool rising(BOOL now, BOOL &old) {
-  const bool edge = now != 0 && old == 0;
-  old = now;
-  return edge;
-}
 
 constexpr std::array<Idn, 4> kValues = {kProbe1Positive, kProbe1Negative, kProbe2Positive,
                                         kProbe2Negative};

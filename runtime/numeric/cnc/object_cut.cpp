@@ -250,7 +250,10 @@ CutError splitObject(const PathObject &object, double way, PathObject &first,
   return CutError::None;
 }
 
-CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noexcept {
+CutError cutStart(PathObject &object, double way) noexcept {
+  ObjectShape shape{};
+  if (shapeOf(object, shape) != ShapeError::None)
+    return CutError::Shape;
   ObjectCut cut;
   const CutError error = planCut(object, shape, way, cut);
   if (error == CutError::None)
@@ -258,7 +261,10 @@ CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noex
   return error;
 }
 
-CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexcept {
+CutError cutEnd(PathObject &object, double way) noexcept {
+  ObjectShape shape{};
+  if (shapeOf(object, shape) != ShapeError::None)
+    return CutError::Shape;
   if (!(way > 0.0))
     return CutError::Way;
   ObjectCut cut;
@@ -266,20 +272,6 @@ CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexce
   if (error == CutError::None)
     takeFirst(cut, shape, object);
   return error;
-}
-
-CutError cutStart(PathObject &object, double way) noexcept {
-  ObjectShape shape{};
-  if (shapeOf(object, shape) != ShapeError::None)
-    return CutError::Shape;
-  return cutStart(object, shape, way);
-}
-
-CutError cutEnd(PathObject &object, double way) noexcept {
-  ObjectShape shape{};
-  if (shapeOf(object, shape) != ShapeError::None)
-    return CutError::Shape;
-  return cutEnd(object, shape, way);
 }
 
 } // namespace stride::cnc

@@ -29,10 +29,6 @@ CutError splitObject(const PathObject &object, double way, PathObject &first,
 CutError cutStart(PathObject &object, double way) noexcept;
 CutError cutEnd(PathObject &object, double way) noexcept;
 
-/// The same where it is known what shapeOf() says of the object.
-CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noexcept;
-CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexcept;
-
 /// Where an object is to be cut.
 struct ObjectCut {
   double way;               ///< From its start. [u]
@@ -42,8 +38,9 @@ struct ObjectCut {
   double slope[3];          ///< Of A, B, C there, where they go by slopes.
 };
 
-/// The same in two steps: where the cut is, and whether the object can be cut there. Then either
-/// take leaves what is before it or after it. [u] in
+/// The same in two steps, where it is known what shapeOf() says of the object: where the cut is,
+/// and whether the object can be cut there. Then either take leaves what is before it or after it.
+/// [u] in
 CutError planCut(const PathObject &object, const ObjectShape &shape, double way,
                  ObjectCut &cut) noexcept;
 /// The same of a shape in space or in a plane, whose parameter and place at this way are known.
