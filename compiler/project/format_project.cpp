@@ -33,15 +33,22 @@ std::string toLatin1(std::string_view text) {
   return out;
 }
 
-/// Free of syntax errors; an `{error …}` is none.
-bool isWellFormed(const SourceFile &source, const ParseOptions &options) {
+/// What there is to format in a file.
+struct Formattable {
+  bool wellFormed;      ///< free of syntax errors; an `{error …}` is none
+  bool hasInstructions; ///< the lines of an instruction list must stay as they are
+};
+
+Formattable formattable(const SourceFile &source, const ParseOptions &options) {
   Interner interner;
   Arena arena;
   Diagnostics found;
-  parse(source, interner, arena, found, &options);
-  return std::none_of(found.all().begin(), found.all().end(), [](const Diagnostic &diagnostic) {
-    return diagnostic.severity == Severity::Error && diagnostic.code != Code::ErrorPragma;
-  });
+  const ast::File *file = parse(source, interner, arena, found, &options);
+  const bool wellFormed =
+      std::none_of(found.all().begin(), found.all().end(), [](const Diagnostic &diagnostic) {
+        return diagnostic.severity == Severity::Error && diagnostic.code != Code::ErrorPragma;
+      });
+  return {wellFormed, file->hasInstructions};
 }
 
 } // namespace
@@ -97,12 +104,15 @@ void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settin
     FormattedFile &file = files[i];
     file.after = file.before;
     const SourceFile &source = sources.file(ids[i]);
-    if (!isWellFormed(source, options)) {
+    const Formattable what = formattable(source, options);
+    if (!what.wellFormed) {
       Interner interner;
       Arena arena;
       parse(source, interner, arena, diagnostics, &options);
       continue;
     }
+    if (what.hasInstructions)
+      continue;
     std::optional<std::string> text = format(source, settings.style);
     if (!text)
       throw std::logic_error(fmt::format("formatting `{}` would change what it says", file.name));

@@ -64,6 +64,7 @@ enum Use : uint8_t {
 struct VarSymbol : Symbol {
   ast::VarDecl *decl = nullptr; ///< null only for a function's result
   const Type *type = nullptr;
+  const Type *common = nullptr; ///< of an inferred type: Expr::common of the value it is from
   ast::Section section = ast::Section::Local;
   PouSymbol *owner = nullptr;      ///< the POU it belongs to; null: global or structure field
   const ast::Decl *home = nullptr; ///< of a global or a field: the declaration around it

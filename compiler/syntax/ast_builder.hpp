@@ -35,6 +35,7 @@ public:
                        std::vector<ast::ProgramInstanceDecl> &out);
 
   [[nodiscard]] ast::Name name(const Token &token);
+  [[nodiscard]] Interner &interner() { return interner_; }
   void declarationInBody(const ast::Name &variable);
   ast::TypeExpr *errorType(Span span);
   [[nodiscard]] ast::Attributes attributes(const Token &token);

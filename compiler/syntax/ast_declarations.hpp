@@ -14,6 +14,7 @@ enum class TypeExprKind : uint8_t {
   Reference,
   Subrange,
   Enumeration,
+  Inferred, ///< of the current result of an instruction list: the type of its first value
   Error
 };
 
@@ -249,6 +250,7 @@ struct File {
   FileId id = 0;
   std::span<Decl *> declarations;
   std::span<StrayMember> strayMembers; ///< for attachMembers()
+  bool hasInstructions = false;        ///< some body is an instruction list
 };
 
 } // namespace stc::ast

@@ -148,6 +148,7 @@ ast::File *FileParser::run() {
     giveMembers(open);
   out->declarations = arena_.copy(declarations_);
   out->strayMembers = arena_.copy(strays_);
+  out->hasInstructions = sawInstructions_;
   return out;
 }
 

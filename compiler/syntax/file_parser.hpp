@@ -18,6 +18,8 @@
 
 namespace stc {
 
+struct Instruction; // instruction_list.hpp
+
 class FileParser {
 public:
   FileParser(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics,
@@ -101,7 +103,17 @@ private:
   void lateMember();
   OpenPou *ownerOf(const Head &head, OpenPou *enclosing, ast::Decl *member);
   void finishBody(ast::PouDecl *node, Content &content);
-  bool instructionList();
+  // Instruction lists.
+  bool instructionList(Content &out);
+  [[nodiscard]] size_t afterBlanks(size_t at, bool inLine) const;
+  [[nodiscard]] bool instructionAt(size_t at) const;
+  void readInstruction(std::vector<Instruction> &list);
+  std::string readOperator(std::vector<Token> &line);
+  void readOperands(std::vector<Token> &line, bool nests);
+  bool understand(Instruction &one, const std::string &word, std::vector<Token> &line);
+  bool takeOperands(Instruction &one, const std::vector<Token> &rest);
+  bool wrongOperands(const Instruction &one, Span where, const char *what);
+  ast::Expr *instructionOperand(const std::vector<Token> &tokens);
   void chart();
 
   /// How deep a declaration is nested: brackets, and ARRAY OF, POINTER TO before a type.
@@ -172,6 +184,7 @@ private:
   std::vector<Token> unit_;
   bool sawExternal_ = false; ///< `{external}` since the current POU or method began
   Span externalSpan_;
+  bool sawInstructions_ = false; ///< some body of the file is an instruction list
   std::vector<ast::Decl *> declarations_;
   std::deque<OpenPou> pous_;
   std::vector<ast::StrayMember> strays_;

@@ -261,9 +261,10 @@ void FileParser::content(Content &out, OpenPou *members) {
       return;
     } else if (isChart(now_.type)) {
       chart();
-    } else if (inBody || !instructionList()) {
+    } else {
+      if (inBody || !instructionList(out))
+        body(out.statements);
       inBody = true;
-      body(out.statements);
     }
   }
 }
@@ -307,23 +308,6 @@ void FileParser::reportMissingEnds() {
 
 // -----------------------------------------------------------------------------------------------
 // other languages
-
-/// Reports an instruction list and skips it.
-bool FileParser::instructionList() {
-  if (now_.type != Tok::IDENT || (!isOperandStart(ahead_.type) && ahead_.type != Tok::DIRECT))
-    return false;
-  static constexpr std::string_view kInstructions[] = {"ld", "ldn", "st", "cal", "calc", "jmpc"};
-  if (std::none_of(std::begin(kInstructions), std::end(kInstructions),
-                   [&](std::string_view name) { return isNow(name); }))
-    return false;
-  diagnostics_
-      .report(Code::NotSupported, span(now_),
-              "instruction list (IL) is not supported by this version")
-      .help("write the body in Structured Text");
-  while (!endsUnit() && !startsDeclaration() && !isMember(now_.type))
-    advance();
-  return true;
-}
 
 /// Reports a sequential function chart and skips it, with the actions that belong to it.
 void FileParser::chart() {

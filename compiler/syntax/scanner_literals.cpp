@@ -175,9 +175,19 @@ uint16_t Scanner::quoted(size_t begin, char quote, Token &token) {
   return type;
 }
 
+/// `%MW4` and the like, as the operand of an instruction (`ST %MW4`), but not `a %b` of C.
+static bool isWholeAddress(std::string_view text) {
+  const auto in = [&](size_t i, std::string_view set) {
+    return i < text.size() && set.find(lowerCase(text[i])) != std::string_view::npos;
+  };
+  return in(1, "iqm") && in(in(2, "xbwdl") ? 3 : 2, "0123456789");
+}
+
 uint16_t Scanner::address(size_t begin, Token &token) {
   const bool partial = previous_ == Tok::DOT;
-  if (!isLetter(at(begin + 1)) || (!partial && afterOperand() && !atLineStart(begin)))
+  const bool isOperand = previous_ == Tok::IDENT && isWholeAddress(text_.substr(begin)) &&
+                         begin > 0 && classOf(text_[begin - 1]) == kBlank;
+  if (!isLetter(at(begin + 1)) || (!partial && !isOperand && afterOperand() && !atLineStart(begin)))
     return foreign(begin, 1, Tok::MOD, token);
   ++place_;
   const size_t letters = place_;

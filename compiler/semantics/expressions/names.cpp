@@ -122,6 +122,8 @@ const Type *checkName(Context &c, NameExpr *expr, const Type *expected) {
     return elementaryType(TypeKind::Error);
   }
   expr->symbol = symbol;
+  if (symbol->kind == SymbolKind::Variable)
+    expr->common = static_cast<const VarSymbol *>(symbol)->common;
   return useSymbol(c, expr, symbol, expr->name);
 }
 

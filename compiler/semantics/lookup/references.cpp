@@ -134,6 +134,7 @@ void Collector::type(const TypeExpr *type) {
     if (as<EnumTypeExpr>(type)->base != nullptr)
       this->type(as<EnumTypeExpr>(type)->base);
     return;
+  case TypeExprKind::Inferred:
   case TypeExprKind::Error:
     return;
   }

@@ -13,6 +13,8 @@
 #include "compiler/semantics/statements/internal.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 
+#include <cstdint>
+
 namespace stc::sema {
 
 using namespace ast;
@@ -151,7 +153,53 @@ static void checkStatement(Context &c, Stmt *stmt) {
   }
 }
 
+/// The variable of an instruction list that gets its type from its first value, which is this one;
+/// else null.
+static VarSymbol *withoutType(Context &c, const AssignStmt *stmt) {
+  const Expr *target = stmt->targets.front();
+  if (target->kind != ExprKind::Name)
+    return nullptr;
+  Symbol *symbol = lookup(c, as<NameExpr>(target)->name);
+  if (symbol == nullptr || symbol->kind != SymbolKind::Variable)
+    return nullptr;
+  auto *variable = static_cast<VarSymbol *>(symbol);
+  const bool inferred =
+      variable->decl != nullptr && variable->decl->type->kind == TypeExprKind::Inferred;
+  return inferred && isError(typeOf(c, variable)) ? variable : nullptr;
+}
+
+/// What a value has as type when nothing says which.
+static const Type *ownType(const Type *type) {
+  return type->kind == TypeKind::AnyInteger ? elementaryType(TypeKind::Dint)
+         : type->kind == TypeKind::AnyReal  ? elementaryType(TypeKind::Lreal)
+                                            : type;
+}
+
+static void inferType(Context &c, AssignStmt *stmt, VarSymbol *variable) {
+  const Type *type = check(c, stmt->value);
+  if (isError(type))
+    return;
+  if (type->kind == TypeKind::None) {
+    c.report(Code::NoValue, stmt->value->span, "this call has no value",
+             "the function has no result type")
+        .help("give the function a result type: `FUNCTION f : INT`");
+    return;
+  }
+  variable->type = ownType(type);
+  variable->common = stmt->value->common;
+  const ConstValue *constant = stmt->value->constant;
+  if (type->kind == TypeKind::AnyReal)
+    variable->common = elementaryType(TypeKind::Real);
+  else if (type->kind == TypeKind::AnyInteger && constant != nullptr &&
+           constant->integer >= INT16_MIN && constant->integer <= INT16_MAX)
+    variable->common = elementaryType(TypeKind::Int);
+  check(c, stmt->targets.front());
+  coerce(c, stmt->value, variable->type, {});
+}
+
 static void checkAssign(Context &c, AssignStmt *stmt) {
+  if (VarSymbol *variable = withoutType(c, stmt))
+    return inferType(c, stmt, variable);
   // The last target takes the value, the one before it what that one has taken, and so on.
   const Type *expected = nullptr;
   for (size_t i = stmt->targets.size(); i-- > 0;) {

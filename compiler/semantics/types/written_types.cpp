@@ -76,6 +76,7 @@ const Type *resolveType(Context &c, TypeExpr *expr, std::string_view hint) {
     symbol.library->types.push_back(&symbol);
     return type;
   }
+  case TypeExprKind::Inferred: // checkAssign() gives it
   case TypeExprKind::Error:
     break;
   }
