@@ -206,6 +206,14 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   return 0;
 }
 
+/// Likewise, and the movement fails if there is an error.
+int16_t appendOrFail(GroupRef &group, const GroupArm &arm, const Request &request) {
+  const int16_t wrong = append(group, arm, request);
+  if (wrong != 0)
+    fail(stateOf(group), request.id, wrong);
+  return wrong;
+}
+
 /// What has been aborted cannot be continued.
 void forget(GroupState &state) noexcept {
   endTriggers(state);
@@ -228,8 +236,8 @@ void changeTool(GroupState &state, GroupArm &arm, const Tool &tool) {
   arm.setTool(state.tool);
 }
 
-/// The group is at rest for a request that needs that: what was before is over.
-void begin(GroupRef &group, GroupArm &arm, const Request &request) {
+/// The group is at rest for a request that needs that: what was before is over. An SMC_ERROR.
+int16_t begin(GroupRef &group, GroupArm &arm, const Request &request) {
   GroupState &state = stateOf(group);
   if (request.kind == RequestKind::Halt) { // what it has stopped may still be kept
     const bool carried = group::isCarried(state.motion);
@@ -237,7 +245,7 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
     if ((request.forgets || carried) && group.bOwns != 0)
       forget(state);
     group::setOutcome(state.motion, request.id, group::Outcome::Done);
-    return;
+    return 0;
   }
   const bool owned = group.bOwns != 0;
   if (owned) {
@@ -247,14 +255,18 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
   beginMoving(group);
   changeTool(state, arm, request.tool);
   changeSystem(group, arm, carrierOf(group, request), request);
-  const int16_t wrong = append(group, arm, request);
-  if (wrong == 0)
-    return;
-  fail(state, request.id, wrong);
-  if (!owned) {
+  const int16_t wrong = appendOrFail(group, arm, request);
+  if (wrong != 0 && !owned) {
     forgetSystems(state);
     endMoving(group);
   }
+  return wrong;
+}
+
+void abortWaiting(GroupState &state) noexcept {
+  for (; state.firstRequest < state.nextRequest; ++state.firstRequest)
+    group::setOutcome(state.motion, requestAt(state, state.firstRequest).id,
+                      group::Outcome::Aborted);
 }
 
 /// Whether there are no movements that the next one would come after.
@@ -343,17 +355,13 @@ void takeRequests(GroupRef &group, GroupArm &arm) {
     const bool elsewhere = carrierOf(group, request) != state.rides;
     if (elsewhere && !fresh && !aborts(request))
       return; // after what is before has ended
-    if (aborts(request) || fresh) {
-      if (group.bOwns != 0 && !canBegin(group, elsewhere))
-        return;
-      begin(group, arm, request);
-    } else {
-      if (!canFollow(state, request))
-        return;
-      if (const int16_t wrong = append(group, arm, request); wrong != 0)
-        fail(state, request.id, wrong);
-    }
+    const bool begins = aborts(request) || fresh;
+    if (begins ? group.bOwns != 0 && !canBegin(group, elsewhere) : !canFollow(state, request))
+      return;
+    const int16_t wrong = begins ? begin(group, arm, request) : appendOrFail(group, arm, request);
     ++state.firstRequest;
+    if (wrong != 0)
+      abortWaiting(state); // they would begin elsewhere than planned
   }
 }
 
@@ -366,9 +374,7 @@ void abortAll(GroupState &state, bool all) noexcept {
   }
   state.interrupting = false;
   group::abandon(state.motion);
-  for (; state.firstRequest < state.nextRequest; ++state.firstRequest)
-    group::setOutcome(state.motion, requestAt(state, state.firstRequest).id,
-                      group::Outcome::Aborted);
+  abortWaiting(state);
 }
 
 void forgetSystems(GroupState &state) noexcept {

@@ -80,6 +80,7 @@ WayState move(Motion &motion, double time, bool pass) noexcept {
       state.way = exact::smaller(state.way, endAt(law, law.first)); // but for rounding
       state.way = exact::larger(state.way, motion.way);
       motion.way = state.way;
+      motion.resting = motion.resting && !(t > 0.0); // it has gone on within this time
       return state;
     }
     const uint8_t mark = markAt(law, law.first);
