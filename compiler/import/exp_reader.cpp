@@ -154,7 +154,8 @@ private:
     std::string_view drawn;
     for (size_t i = 0; i < content.size(); ++i) {
       const std::string_view line = trimmed(content[i]);
-      if (line.starts_with("(* @"))
+      if (line.starts_with("(* @") && line.ends_with("*)") &&
+          line.find(":=") != std::string_view::npos)
         continue;
       for (const std::string_view body : kDrawnBodies)
         if (drawn.empty() && line == body) {
