@@ -20,8 +20,11 @@ struct SectionWord {
   Section section;
 };
 
-constexpr std::array<SectionWord, 11> kSections = {{
+constexpr std::string_view kOldFunctionBlock = "FUNCTIONBLOCK";
+
+constexpr std::array<SectionWord, 12> kSections = {{
     {"FUNCTION_BLOCK", "END_FUNCTION_BLOCK", Section::Pou},
+    {kOldFunctionBlock, "END_FUNCTION_BLOCK", Section::Pou},
     {"FUNCTION", "END_FUNCTION", Section::Pou},
     {"PROGRAM", "END_PROGRAM", Section::Pou},
     {"ACTION", "END_ACTION", Section::Action},
@@ -84,13 +87,17 @@ private:
     const std::string_view text = trimmed(lines[at]);
     CommentState state{attributes["NESTEDCOMMENTS"] != "No"};
     if (text.starts_with("(*")) {
+      model.changed.push_back({originOf(at), "comment", "dropped: it stands between objects"});
       do
         (void)state.line(lines[at++]);
       while (state.inside() && at < lines.size());
       return;
     }
-    if (!text.empty() && text.front() != '{')
-      leaveOut(at, fmt::format("line `{}`", text), "it belongs to no section");
+    if (!text.empty() && text.front() != '{') {
+      if (!strayEnd || *strayEnd != at)
+        leaveOut(at, fmt::format("from line `{}` on", text), "lines that belong to no section");
+      strayEnd = at + 1;
+    }
     ++at;
   }
 
@@ -111,6 +118,10 @@ private:
       return;
     }
     ++at;
+    if (firstWord(content.front()) == kOldFunctionBlock) {
+      content.front().insert(content.front().find(kOldFunctionBlock) + 8, "_");
+      model.changed.push_back({originOf(begin), object, "FUNCTIONBLOCK became FUNCTION_BLOCK"});
+    }
     if (comments.changes() != 0)
       model.changed.push_back({originOf(begin), object,
                                fmt::format("{} `(*` inside comments became `( *`: comments are not "
@@ -224,6 +235,7 @@ private:
   size_t at = 0;
   std::map<std::string, std::string> attributes; ///< of the object that comes next
   std::optional<size_t> lastPou;
+  std::optional<size_t> strayEnd; ///< the line after the last one that belongs to no section
 };
 
 } // namespace

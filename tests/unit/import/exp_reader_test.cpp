@@ -116,6 +116,20 @@ TEST(ExpReader, unknownSectionsAreLeftOutAsAWhole) {
   EXPECT_EQ(model.leftOut[2].origin.line, 9U);
 }
 
+TEST(ExpReader, theOldWordForFunctionBlocksIsReplaced) {
+  const Model model = read("  FUNCTIONBLOCK F\nEND_FUNCTION_BLOCK\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_EQ(model.objects[0].text, "  FUNCTION_BLOCK F\nEND_FUNCTION_BLOCK\n");
+  EXPECT_THAT(model.changed, SizeIs(1));
+}
+
+TEST(ExpReader, strayLinesThatFollowEachOtherAreOneLoss) {
+  const Model model = read("a\nb\n(* c *)\n\nd\n");
+  ASSERT_THAT(model.leftOut, SizeIs(2));
+  EXPECT_EQ(model.leftOut[1].origin.line, 5U);
+  EXPECT_THAT(model.changed, SizeIs(1));
+}
+
 TEST(ExpReader, aTruncatedObjectIsALoss) {
   const Model model = read("PROGRAM P\nn := 1;");
   EXPECT_THAT(model.objects, IsEmpty());
