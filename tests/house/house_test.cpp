@@ -68,6 +68,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
        {"compiler/assets/", "compiler/toml", "compiler/codegen", "compiler/semantics",
         "compiler/syntax", "compiler/source", "runtime/bus", "runtime/io", "drivers",
         "drivers/io"}},
+      {"compiler/import", {}},
       {"compiler/plot", {"compiler/source"}},
       {"compiler/doc",
        {"compiler/project", "compiler/semantics", "compiler/syntax", "compiler/source"}},

@@ -1,0 +1,56 @@
+// The project folder of an import.
+#include "compiler/import/project_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace stc::import {
+namespace {
+
+using testing::HasSubstr;
+using testing::SizeIs;
+
+TEST(ProjectFiles, everyObjectGetsAFileOfItsOwn) {
+  Model model;
+  model.objects = {
+      {ObjectKind::Pou, "Main", {"Motion"}, "PROGRAM Main\nEND_PROGRAM\n", {"a.EXP", 4}},
+      {ObjectKind::Pou, "MAIN", {"motion"}, "x", {"b.EXP", 7}},
+      {ObjectKind::GlobalList, "../My List", {}, "y", {"b.EXP", 9}}};
+  const std::vector<ProjectFile> files = projectFiles(model, "Line");
+  ASSERT_THAT(files, SizeIs(5));
+  EXPECT_EQ(files[0].path, "Motion/Main.st");
+  EXPECT_EQ(files[0].text, "PROGRAM Main\nEND_PROGRAM\n");
+  EXPECT_EQ(files[1].path, "motion/MAIN_2.st");
+  EXPECT_EQ(files[2].path, "___My_List.st");
+  EXPECT_EQ(files[3].text, "[project]\nname = \"Line\"\n");
+  EXPECT_EQ(files[4].path, "import-report.md");
+  EXPECT_THAT(files[4].text, HasSubstr("## Converted: 3\n\n- a.EXP:4: Main: Motion/Main.st\n"));
+}
+
+TEST(ProjectFiles, tasksAreThoseOfTheProjectFile) {
+  Model model;
+  model.tasks = {{"Fast", "3", "T#5ms", "", {"P", "Q"}, {"a.EXP", 2}},
+                 {"Go", "0", "", "s = \"a\"", {"R"}, {"a.EXP", 5}},
+                 {"Free", "", "", "", {}, {"a.EXP", 8}}};
+  EXPECT_EQ(
+      projectFiles(model, "a\"b")[0].text,
+      "[project]\nname = \"a\\\"b\"\n"
+      "\n[[task]]\nname = \"Fast\"\ninterval = \"T#5ms\"\npriority = 3\nprograms = [\"P\", \"Q\"]\n"
+      "\n[[task]]\nname = \"Go\"\nkind = \"event\"\nevent = \"s = \\\"a\\\"\"\npriority = "
+      "0\nprograms = [\"R\"]\n"
+      "\n[[task]]\nname = \"Free\"\nkind = \"freewheeling\"\nprograms = []\n");
+}
+
+TEST(ProjectFiles, theReportNamesLossesFirst) {
+  Model model;
+  model.leftOut = {{{"a.EXP", 12}, "VISUALISATION Pic", "not imported"}};
+  model.changed = {{{"a.EXP", 3}, "PROGRAM P", "comments"}};
+  EXPECT_EQ(projectFiles(model, "Line").back().text,
+            "# Import of Line\n\n## Left out: 1\n\n- a.EXP:12: VISUALISATION Pic: not imported\n"
+            "\n## Changed: 1\n\n- a.EXP:3: PROGRAM P: comments\n\n## Converted: 0\n\n");
+}
+
+} // namespace
+} // namespace stc::import
