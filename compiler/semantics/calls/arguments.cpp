@@ -2,6 +2,7 @@
 
 #include "compiler/semantics/calls/calls.hpp"
 
+#include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/calls/internal.hpp"
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"

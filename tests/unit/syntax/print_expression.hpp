@@ -255,6 +255,9 @@ public:
       }
       break;
     }
+    case TypeExprKind::Inferred:
+      out_ << "inferred";
+      break;
     case TypeExprKind::Pointer:
     case TypeExprKind::Reference:
       out_ << (as<PointerTypeExpr>(node)->refTo      ? "(ref-to "
