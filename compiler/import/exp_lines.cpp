@@ -116,23 +116,23 @@ std::string CommentState::line(std::string_view text) {
   char quote = 0;
   for (size_t i = 0; i < text.size(); ++i) {
     const std::string_view two = text.substr(i, 2);
-    if (depth == 0 && quote != 0 && text[i] == '$' && two.size() == 2) {
+    if (depth_ == 0 && quote != 0 && text[i] == '$' && two.size() == 2) {
       result += two;
       ++i;
-    } else if (depth == 0 && (quote != 0 ? text[i] == quote : text[i] == '\'' || text[i] == '"')) {
+    } else if (depth_ == 0 && (quote != 0 ? text[i] == quote : text[i] == '\'' || text[i] == '"')) {
       quote = quote != 0 ? '\0' : text[i];
       result += text[i];
     } else if (quote == 0 && two == "(*") {
-      const bool apart = depth != 0 && !nested;
-      changed += apart ? 1 : 0;
-      depth += apart ? 0 : 1;
+      const bool apart = depth_ != 0 && !nested_;
+      changed_ += apart ? 1 : 0;
+      depth_ += apart ? 0 : 1;
       result += apart ? "( *" : "(*";
       // `(*)` inside such a comment ends it: its asterisk belongs to the end, too.
       i += apart ? 0 : 1;
       if (apart)
         result.pop_back();
-    } else if (depth != 0 && two == "*)") {
-      --depth;
+    } else if (depth_ != 0 && two == "*)") {
+      --depth_;
       result += two;
       ++i;
     } else {

@@ -29,17 +29,17 @@ namespace stc::import {
 /// takes the `(*` inside them apart, for Stride nests them.
 class CommentState {
 public:
-  explicit CommentState(bool nested) : nested(nested) {}
+  explicit CommentState(bool nested) : nested_(nested) {}
   /// The line as Stride is to read it.
   [[nodiscard]] std::string line(std::string_view text);
   /// Whether the last line ended inside a comment.
-  [[nodiscard]] bool inside() const { return depth != 0; }
-  [[nodiscard]] size_t changes() const { return changed; }
+  [[nodiscard]] bool inside() const { return depth_ != 0; }
+  [[nodiscard]] size_t changes() const { return changed_; }
 
 private:
-  bool nested;
-  size_t depth = 0;
-  size_t changed = 0;
+  bool nested_;
+  size_t depth_ = 0;
+  size_t changed_ = 0;
 };
 
 } // namespace stc::import

@@ -43,37 +43,37 @@ constexpr std::array<std::string_view, 3> kDrawnBodies = {"_LD_BODY", "_FBD_BODY
 class Reader {
 public:
   Reader(const std::string &file, std::string_view text, Model &model)
-      : file(file), lines(linesOf(text)), model(model) {}
+      : file_(file), lines_(linesOf(text)), model_(model) {}
 
   void read() {
-    while (at < lines.size())
+    while (at_ < lines_.size())
       if (!readAttribute() && !readSection())
         skipLine();
   }
 
 private:
-  [[nodiscard]] Origin originOf(size_t line) const { return {file, line + 1}; }
+  [[nodiscard]] Origin originOf(size_t line) const { return {file_, line + 1}; }
 
   void leaveOut(size_t line, std::string object, std::string why) {
-    model.leftOut.push_back({originOf(line), std::move(object), std::move(why)});
+    model_.leftOut.push_back({originOf(line), std::move(object), std::move(why)});
   }
 
   /// `(* @KEY := 'value' *)`, over several lines for a few keys.
   bool readAttribute() {
-    const std::string_view text = trimmed(lines[at]);
+    const std::string_view text = trimmed(lines_[at_]);
     if (!text.starts_with("(* @"))
       return false;
     const size_t end = text.find_first_of(" :", 4);
     const std::string key(text.substr(4, end == std::string_view::npos ? end : end - 4));
-    attributes[key] = quoted(text);
-    while (at < lines.size() && lines[at].find("*)") == std::string_view::npos)
-      ++at;
-    ++at;
+    attributes_[key] = quoted(text);
+    while (at_ < lines_.size() && lines_[at_].find("*)") == std::string_view::npos)
+      ++at_;
+    ++at_;
     return true;
   }
 
   bool readSection() {
-    const std::string_view word = firstWord(lines[at]);
+    const std::string_view word = firstWord(lines_[at_]);
     for (const SectionWord &each : kSections)
       if (word == each.begin)
         return take(each.section, each.end), true;
@@ -84,52 +84,53 @@ private:
 
   /// A line between the objects; only comments and pragmas may stand there.
   void skipLine() {
-    const std::string_view text = trimmed(lines[at]);
-    CommentState state{attributes["NESTEDCOMMENTS"] != "No"};
+    const std::string_view text = trimmed(lines_[at_]);
+    CommentState state{attributes_["NESTEDCOMMENTS"] != "No"};
     if (text.starts_with("(*")) {
-      model.changed.push_back({originOf(at), "comment", "dropped: it stands between objects"});
+      model_.changed.push_back({originOf(at_), "comment", "dropped: it stands between objects"});
       do
-        (void)state.line(lines[at++]);
-      while (state.inside() && at < lines.size());
+        (void)state.line(lines_[at_++]);
+      while (state.inside() && at_ < lines_.size());
       return;
     }
     if (!text.empty() && text.front() != '{') {
-      if (!strayEnd || *strayEnd != at)
-        leaveOut(at, fmt::format("from line `{}` on", text), "lines that belong to no section");
-      strayEnd = at + 1;
+      if (!strayEnd_ || *strayEnd_ != at_)
+        leaveOut(at_, fmt::format("from line `{}` on", text), "lines that belong to no section");
+      strayEnd_ = at_ + 1;
     }
-    ++at;
+    ++at_;
   }
 
   void take(Section section, std::string_view endWord) {
-    const size_t begin = at;
-    const std::string object(trimmed(lines[begin]));
-    CommentState comments{attributes["NESTEDCOMMENTS"] != "No"};
+    const size_t begin = at_;
+    const std::string object(trimmed(lines_[begin]));
+    CommentState comments{attributes_["NESTEDCOMMENTS"] != "No"};
     const bool source = section != Section::LeftOut && section != Section::Library;
     std::vector<std::string> content;
-    for (; at < lines.size(); ++at) {
+    for (; at_ < lines_.size(); ++at_) {
       const bool code = !source || !comments.inside();
-      content.push_back(source ? comments.line(lines[at]) : std::string(lines[at]));
-      if (code && firstWord(lines[at]) == endWord)
+      content.push_back(source ? comments.line(lines_[at_]) : std::string(lines_[at_]));
+      if (code && firstWord(lines_[at_]) == endWord)
         break;
     }
-    if (at == lines.size()) {
+    if (at_ == lines_.size()) {
       leaveOut(begin, object, fmt::format("the file ends before {}; export it again", endWord));
       return;
     }
-    ++at;
+    ++at_;
     if (firstWord(content.front()) == kOldFunctionBlock) {
       content.front().insert(content.front().find(kOldFunctionBlock) + 8, "_");
-      model.changed.push_back({originOf(begin), object, "FUNCTIONBLOCK became FUNCTION_BLOCK"});
+      model_.changed.push_back({originOf(begin), object, "FUNCTIONBLOCK became FUNCTION_BLOCK"});
     }
     if (comments.changes() != 0)
-      model.changed.push_back({originOf(begin), object,
-                               fmt::format("{} `(*` inside comments became `( *`: comments are not "
-                                           "nested in this object",
-                                           comments.changes())});
+      model_.changed.push_back(
+          {originOf(begin), object,
+           fmt::format("{} `(*` inside comments became `( *`: comments are not "
+                       "nested in this object",
+                       comments.changes())});
     finish(section, begin, object, content);
     if (section != Section::Globals)
-      attributes.clear();
+      attributes_.clear();
   }
 
   void finish(Section section, size_t begin, const std::string &object,
@@ -154,8 +155,8 @@ private:
   }
 
   void add(ObjectKind kind, size_t begin, std::string name, std::string text) {
-    model.objects.push_back(
-        {kind, std::move(name), foldersOf(attributes["PATH"]), std::move(text), originOf(begin)});
+    model_.objects.push_back(
+        {kind, std::move(name), foldersOf(attributes_["PATH"]), std::move(text), originOf(begin)});
   }
 
   /// The text without the attributes inside it. A drawn body becomes an error of the compiler.
@@ -182,14 +183,14 @@ private:
 
   void addPou(size_t begin, const std::string &object, const std::vector<std::string> &content) {
     add(ObjectKind::Pou, begin, declaredName(content), sourceOf(begin, object, content));
-    lastPou = model.objects.size() - 1;
+    lastPou_ = model_.objects.size() - 1;
   }
 
   /// Actions stand after the POU that they belong to; ours stand before its last line.
   void addAction(size_t begin, const std::string &object, const std::vector<std::string> &content) {
-    if (!lastPou)
+    if (!lastPou_)
       return leaveOut(begin, object, "no POU stands before this action");
-    std::string &pou = model.objects[*lastPou].text;
+    std::string &pou = model_.objects[*lastPou_].text;
     const size_t lastLine = pou.rfind('\n', pou.size() - 2);
     pou.insert(lastLine == std::string::npos ? 0 : lastLine + 1,
                "\n" + sourceOf(begin, object, content));
@@ -197,11 +198,11 @@ private:
 
   /// Blocks of one list have one attribute @GLOBAL_VARIABLE_LIST before the first of them.
   void addGlobals(size_t begin, const std::vector<std::string> &content) {
-    std::string name = attributes["GLOBAL_VARIABLE_LIST"];
+    std::string name = attributes_["GLOBAL_VARIABLE_LIST"];
     if (name.empty())
       name = "Global_Variables";
-    for (Object &each : model.objects)
-      if (each.kind == ObjectKind::GlobalList && each.name == name && each.origin.file == file) {
+    for (Object &each : model_.objects)
+      if (each.kind == ObjectKind::GlobalList && each.name == name && each.origin.file == file_) {
         each.text += "\n" + joined(content);
         return;
       }
@@ -214,13 +215,13 @@ private:
       const std::string_view line = trimmed(content[i]);
       const std::string_view word = firstWord(line);
       if (word == "TASK") {
-        model.tasks.push_back(taskOf(line));
-        model.tasks.back().origin = originOf(begin + i);
+        model_.tasks.push_back(taskOf(line));
+        model_.tasks.back().origin = originOf(begin + i);
         inTask = true;
       } else if (word == "END_TASK") {
         inTask = false;
       } else if (inTask && line.ends_with("();")) {
-        model.tasks.back().programs.emplace_back(trimmed(line.substr(0, line.size() - 3)));
+        model_.tasks.back().programs.emplace_back(trimmed(line.substr(0, line.size() - 3)));
       } else if (line.find("'handler'") != std::string_view::npos) {
         leaveOut(begin + i, "system event", "handlers of system events are not imported");
       } else if (inTask && !line.empty() && line.front() != '{') {
@@ -229,13 +230,13 @@ private:
     }
   }
 
-  const std::string &file;
-  const std::vector<std::string_view> lines;
-  Model &model;
-  size_t at = 0;
-  std::map<std::string, std::string> attributes; ///< of the object that comes next
-  std::optional<size_t> lastPou;
-  std::optional<size_t> strayEnd; ///< the line after the last one that belongs to no section
+  const std::string &file_;
+  const std::vector<std::string_view> lines_;
+  Model &model_;
+  size_t at_ = 0;
+  std::map<std::string, std::string> attributes_; ///< of the object that comes next
+  std::optional<size_t> lastPou_;
+  std::optional<size_t> strayEnd_; ///< the line after the last one that belongs to no section
 };
 
 } // namespace
