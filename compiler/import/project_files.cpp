@@ -1,5 +1,7 @@
 #include "compiler/import/project_files.hpp"
 
+#include "runtime/common/text.hpp"
+
 #include <algorithm>
 #include <set>
 #include <string_view>
@@ -12,13 +14,6 @@ namespace {
 
 /// Longest name of a file without its ending; file systems end at 255 bytes.
 constexpr size_t kLongestName = 200;
-
-std::string lower(std::string text) {
-  for (char &c : text)
-    if (c >= 'A' && c <= 'Z')
-      c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
 
 /// The name as that of a file: letters, digits, `_`, and what is not ASCII.
 std::string fileNameOf(const std::string &name) {
@@ -36,7 +31,7 @@ std::string pathOf(const Object &object, std::set<std::string> &taken) {
     stem += folder + "/";
   stem += fileNameOf(object.name);
   std::string path = stem + ".st";
-  for (size_t n = 2; !taken.insert(lower(path)).second; ++n)
+  for (size_t n = 2; !taken.insert(stride::common::lowerCase(path)).second; ++n)
     path = fmt::format("{}_{}.st", stem, n);
   return path;
 }

@@ -158,9 +158,8 @@ void InstructionLowering::calculate(const Instruction &one) {
       set(one.operands.front(), 0);
     return;
   }
-  for (Expr *operand : one.operands) {
+  for (Expr *operand : one.operands)
     combine(one, *one.op, operand, one.span);
-  }
 }
 
 void InstructionLowering::close(const Instruction &one) {
