@@ -42,10 +42,25 @@ struct Task {
   Origin origin;
 };
 
+/// A library that the project refers to.
+struct LibraryReference {
+  std::string name;
+  std::string version; ///< empty: not given
+  Origin origin;
+};
+
+/// Text of a section that is not imported; it is kept beside the report.
+struct KeptText {
+  std::string path; ///< relative to the folder of kept texts, with `/`
+  std::string text;
+};
+
 /// All files of one import.
 struct Model {
   std::vector<Object> objects;
   std::vector<Task> tasks;
+  std::vector<LibraryReference> libraries;
+  std::vector<KeptText> kept;
   std::vector<Remark> changed;
   std::vector<Remark> leftOut; ///< losses
 };
