@@ -130,7 +130,9 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) {
                                     stopsAtOnce(group, state),
                                     state.rides != 0 ? stateOfCarrier(group, state.rides)
                                                      : motion::State{},
-                                    state.jerk};
+                                    state.jerk,
+                                    state.accelerationPart,
+                                    state.jerkPart};
   planGroup(group, arm, command);
   state.forecast = group::plannedTime(state.motion);
   state.rest = {exact::kInfinity, 0};
@@ -265,16 +267,15 @@ int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
              : int16_t{0};
 }
 
-int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration, double jerk) {
+int16_t beginStop(Ctx &ctx, GroupRef &group, const Request &stop) {
   bindTriggers(group, ctx.cycle + 1, 0, error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
   if (!takesMovements(group) && group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
-  if (!(deceleration >= 0.0) || !(jerk >= 0.0))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+  if (const int16_t wrong = wrongHalt(stop); wrong != 0)
+    return wrong;
   GroupState &state = stateOf(group);
   abortAll(state, true);
-  state.deceleration = deceleration;
-  state.jerk = jerk;
+  setBraking(state, stop);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStopping;
   return 0;
 }

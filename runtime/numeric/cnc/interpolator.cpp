@@ -165,7 +165,7 @@ void wish(Interpolator &interpolator, const Command &command) noexcept {
   const bool moves = override > kLeastOverride;
   wish.stop = command.slowStop || command.quickStop || command.emergencyStop || !moves;
   wish.settings = {command.law, command.jerk, command.share};
-  wish.deceleration = command.quickStop ? larger(command.quickDeceleration, 0.0) : 0.0;
+  wish.braking.deceleration = command.quickStop ? larger(command.quickDeceleration, 0.0) : 0.0;
   if (moves)
     wish.override = dryRunVelocity(command) < exact::kInfinity ? smaller(override, 1.0) : override;
   limitStep(interpolator, command);

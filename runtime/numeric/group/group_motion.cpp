@@ -147,8 +147,7 @@ void put(GroupMotion &group, const Arm &arm, const path::WayState &state) noexce
 void wish(GroupMotion &group, const GroupCommand &command) noexcept {
   path::Wish &wish = group.motion.wish;
   wish.stop = command.stop || !(command.override > 0.0);
-  wish.deceleration = command.stop ? command.deceleration : 0.0;
-  wish.jerk = command.stop ? command.jerk : 0.0;
+  wish.braking = brakingOf(command);
   group.motion.keep = command.keep;
   group.motion.atOnce = command.atOnce;
   if (command.override > 0.0)

@@ -49,8 +49,7 @@ enum PieceMark : uint8_t {
 struct Wish {
   double override;         ///< Factor of feeds, > 0.
   double limit;            ///< It goes no further than this way; kInfinity: as far as it can. [u]
-  double deceleration;     ///< See PlanTask. [u/s^2]
-  double jerk;             ///< See PlanTask::brakeJerk. [u/s^3]
+  Braking braking;         ///< To stop: see PlanTask.
   bool stop;               ///< It comes to rest as soon as it can, and stays there.
   MotionSettings settings; ///< Others wait until the motion does not accelerate or brake.
 };

@@ -22,9 +22,14 @@ constexpr double kStopFactor = 1.04;
 constexpr double kStopCells = 1.6; ///< A plan to stop has larger cells, to be there soon.
 constexpr int32_t kPause = 8;      ///< Calls after a plan that came to nothing.
 
+bool differs(const Braking &a, const Braking &b) noexcept {
+  return a.deceleration != b.deceleration || a.jerk != b.jerk ||
+         a.accelerationPart != b.accelerationPart || a.jerkPart != b.jerkPart;
+}
+
 bool differs(const Wish &a, const Wish &b) noexcept {
-  return a.override != b.override || a.limit != b.limit || a.deceleration != b.deceleration ||
-         a.jerk != b.jerk || a.stop != b.stop;
+  return a.override != b.override || a.limit != b.limit || differs(a.braking, b.braking) ||
+         a.stop != b.stop;
 }
 
 /// Whether the law changes ahead to other settings.
@@ -78,7 +83,7 @@ double jerkAt(const Motion &motion, const WayState &state) noexcept {
       smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
   const double most = smaller(acceleration / kLeastRise, velocity / (kLeastRise * kLeastRise));
-  const double allowed = larger(most, jerkIn(strip, exact::kInfinity, motion.asked.jerk));
+  const double allowed = larger(most, jerkIn(strip, exact::kInfinity, motion.asked.braking));
   const double enough = strip.jerk > 0.0F ? kMore * allowed : most;
   return smaller(motion.asked.settings.jerk, larger(enough, leastJerk(state, velocity)));
 }
@@ -119,8 +124,7 @@ void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   task.share = motion.asked.settings.share;
   task.override = motion.asked.override;
   task.before = motion.planned.override;
-  task.deceleration = motion.asked.deceleration;
-  task.brakeJerk = motion.asked.jerk;
+  task.braking = motion.asked.braking;
   task.cells = motion.cells;
   task.hurry = hurry;
   task.limit = motion.asked.limit;
@@ -268,12 +272,12 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
 /// In what length the motion could stop on a straight line. [u]
 double stoppingLength(const Motion &motion, const WayState &state, const Strip &strip) noexcept {
   const double deceleration =
-      smaller(motion.asked.settings.share * larger(strip.deceleration, motion.asked.deceleration),
+      smaller(motion.asked.settings.share * decelerationIn(strip, motion.asked.braking),
               larger(1.0 - strip.across * state.velocity * state.velocity, 0.05) / strip.along);
   const double v = state.velocity;
   if (!hasJerk(motion))
     return 0.5 * v * v / deceleration;
-  const double jerk = jerkIn(strip, motion.asked.settings.jerk, motion.asked.jerk);
+  const double jerk = jerkIn(strip, motion.asked.settings.jerk, motion.asked.braking);
   const double a = larger(state.acceleration, 0.0);
   const double peak = v + 0.5 * a * a / jerk;
   const double time = rampTime(peak, deceleration, jerk);

@@ -36,9 +36,7 @@ struct PlanTask {
   double override;     ///< Factor of feeds.
   double before;       ///< That of the law it takes over from, which may begin above `override`.
   double hurry;        ///< How long the motion would stand still for a plan with many cells. [s]
-  double deceleration; ///< With which it may brake at least, whatever strips say; 0: as they say.
-                       ///< [u/s^2]
-  double brakeJerk;    ///< Likewise the jerk, as far as strips have it to spare. [u/s^3]
+  Braking braking;     ///< To stop: besides what strips say.
   double limit;        ///< It goes no further than this way, also to stop; kInfinity: none. [u]
   double rampPart;     ///< Which part of the axes' acceleration curves must leave for a ramp in
                        ///< closed form; 1: no ramp; less, and a stop is nothing but a ramp.

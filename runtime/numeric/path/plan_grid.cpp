@@ -37,7 +37,7 @@ double besideRest(double jerk, double square, double velocity, double x) noexcep
 /// b as the first idea has it, with regard to rest at the ends. [u^2/s^2]
 double expected(const Plan &plan, const Course &course, const Idea &idea, double way) noexcept {
   const auto jerkOf = [&plan, &course](int64_t strip) {
-    return jerkIn(stripAt(course, strip), plan.task.jerk, plan.task.brakeJerk);
+    return jerkIn(stripAt(course, strip), plan.task.jerk, plan.task.braking);
   };
   const double velocity = exact::sqrt(idea.square);
   const double square = besideRest(jerkOf(plan.lastStrip), idea.square, velocity, plan.end - way);
@@ -120,7 +120,7 @@ double restCell(const Plan &plan, const Course &course, bool atEnd) noexcept {
       square = smaller(square, squareIn(strip, plan.task.override));
       acceleration = smaller(acceleration, atEnd ? usableDeceleration(plan, strip)
                                                  : usableAcceleration(plan, strip));
-      jerk = jerkIn(strip, jerk, plan.task.brakeJerk);
+      jerk = jerkIn(strip, jerk, plan.task.braking);
       length = smaller(length, restWithin(jerk, square, acceleration));
     }
     covered += lengthInRun(plan, course, number);
@@ -156,10 +156,9 @@ void takeLimits(Plan &plan, const Course &course, Cell &cell, double from) noexc
     cell.ceiling = smaller(cell.ceiling, squareIn(strip, plan.task.override));
     cell.along = larger(cell.along, strip.along);
     cell.across = larger(cell.across, strip.across);
-    cell.jerk = jerkIn(strip, cell.jerk, plan.task.brakeJerk);
+    cell.jerk = jerkIn(strip, cell.jerk, plan.task.braking);
     cell.acceleration = smaller(cell.acceleration, strip.acceleration);
-    cell.deceleration =
-        smaller(cell.deceleration, larger(strip.deceleration, plan.task.deceleration));
+    cell.deceleration = smaller(cell.deceleration, decelerationIn(strip, plan.task.braking));
     cell.curve = smaller(cell.curve, squareIn(strip, quickest(plan)));
     if (strip.end <= cell.end && strip.end < plan.end)
       lowerAtEnd(plan, cell, strip);
@@ -184,10 +183,10 @@ void putFirstCell(Plan &plan, const Course &course) noexcept {
   plan.coarse = !plan.stops || isHurried(plan);
   plan.endRest = restCell(plan, course, true);
   plan.endStep = lengthBesideRest(
-      plan, jerkIn(stripAt(course, plan.lastStrip), plan.task.jerk, plan.task.brakeJerk),
+      plan, jerkIn(stripAt(course, plan.lastStrip), plan.task.jerk, plan.task.braking),
       plan.endRest);
   plan.coarse = isHurried(plan);
-  const double jerk = jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk, plan.task.brakeJerk);
+  const double jerk = jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk, plan.task.braking);
   if (startsAtRest(plan)) {
     const double length = restCell(plan, course, false);
     putCell(plan, course, plan.task.way + length, plan.task.way + 0.25 * length);

@@ -206,8 +206,7 @@ void checkStart(Plan &plan, const Course &course) noexcept {
   const Strip &strip = stripAt(course, plan.firstStrip);
   const Cell &cell = plan.cell[0];
   const double a = plan.task.acceleration;
-  const double own =
-      a > 0.0 ? strip.acceleration : larger(strip.deceleration, plan.task.deceleration);
+  const double own = a > 0.0 ? strip.acceleration : decelerationIn(strip, plan.task.braking);
   if (!startsAtRest(plan) && exact::fabs(a) <= own * kRounding)
     note(plan, a > 0.0 ? a / cell.acceleration : -a / cell.deceleration);
 }
