@@ -9,7 +9,7 @@ namespace {
 using exact::smaller;
 
 /// The jerk of the law: strips say what is allowed.
-constexpr path::MotionSettings kSettings{path::LawKind::Jerk, 1e30, 1.0};
+constexpr path::MotionSettings kSettings{path::LawKind::Jerk, 1e30, 1.0, true};
 
 /// By how much an axis may exceed its velocity because of a system that changes its own.
 constexpr double kTooFast = 1.1;

@@ -26,6 +26,7 @@ struct MotionSettings {
   double jerk;  ///< For LawKind::Jerk, > 0. [u/s^3]
   double share; ///< For the others: of the path's accelerations; less than 1 for a law that exceeds
                 ///< them.
+  bool lean;    ///< Plans are to cost little, and may be a little slower for that.
 };
 
 /// The planned motion: pieces one after the other, a ring.
@@ -78,6 +79,8 @@ struct Motion {
                          ///< than plans need. It may be changed at any time. [s]
   int64_t cycles;        ///< How many there were.
   double tail;           ///< In which its last run only brakes. [s]
+  double calm;           ///< Since its last place from where plans succeed best: before it has to
+                         ///< give way to what is ahead; kInfinity: there is none. [s]
   double lead;           ///< How far ahead the session plans. [s]
   double urgentLead;     ///< The least one of the next session for another wish. [s]
   double passed;         ///< Session: time of the pieces that have been looked at. [s]

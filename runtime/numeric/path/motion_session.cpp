@@ -92,6 +92,7 @@ double jerkAt(const Motion &motion, const WayState &state) noexcept {
 /// from `present`, when the feed becomes less than that. [u/s] in
 double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   constexpr double kPart = 1.0 / 60.0;
+  constexpr double kLeanPart = 1.0 / 26.0;
   if (!hasJerk(motion))
     return kLeastCellTime;
   const Strip &strip = stripAtWay(motion, way);
@@ -99,7 +100,8 @@ double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   const double deceleration =
       smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double jerk = jerkIn(strip, motion.asked.settings.jerk);
-  const double time = kPart * rampTime(velocity, deceleration, jerk);
+  const double part = motion.asked.settings.lean ? kLeanPart : kPart;
+  const double time = part * rampTime(velocity, deceleration, jerk);
   return smaller(larger(time, kLeastCellTime), kMostCellTime);
 }
 
@@ -128,6 +130,7 @@ void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   task.cells = motion.cells;
   task.hurry = hurry;
   task.limit = motion.asked.limit;
+  task.lean = motion.asked.settings.lean;
   task.rampPart = motion.asked.stop ? stopRampPart(motion) : kRampPart;
   task.end = exact::kInfinity;
   if (motion.asked.limit < endOf(motion.course))
@@ -186,15 +189,25 @@ int32_t cellsFor(const Motion &motion, int32_t most) noexcept {
 /// law; chooses with how many cells, and from where on.
 bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
   const double left = timeLeft(motion);
-  const double free = left - motion.tail;
+  double free = left - motion.tail;
   const auto leadFor = [&motion, budget](int32_t cells) {
     const int32_t steps = hasJerk(motion) ? kStepsPerCell * cells : kTrapezoidSteps;
     return 1.1 * planningTime(motion, steps, budget);
   };
   int32_t cells = motion.cells < kCells / 2 ? 2 * motion.cells : kCells;
   cells = cellsFor(motion, cells);
-  if (free > leadFor(cells) + motion.keep + 0.3 * motion.tail)
+  const double calm = left - motion.calm;
+  const bool isCalm = motion.asked.settings.lean && calm > leadFor(kLeastCells) + motion.keep;
+  if (isCalm ? calm > leadFor(cells) + motion.keep + 2.0 * motion.cycle
+             : free > leadFor(cells) + motion.keep + 0.3 * motion.tail)
     return false;
+  if (isCalm) {
+    while (cells > kLeastCells && leadFor(cells) + motion.keep > calm)
+      cells -= kLeastCells / 4;
+    motion.cells = cells;
+    motion.lead = larger(calm, motion.promise);
+    return true;
+  }
   while (cells > kLeastCells && leadFor(cells) > 0.9 * free)
     cells -= kLeastCells / 4;
   motion.cells = cells;

@@ -42,6 +42,7 @@ struct PlanTask {
                        ///< closed form; 1: no ramp; less, and a stop is nothing but a ramp.
   int32_t cells;       ///< How many may be used, up to kCells.
   bool whole;          ///< The run must reach `end`, however many cells that takes.
+  bool lean;           ///< See MotionSettings.
 };
 
 /// A part of the run. What belongs to a knot is that of the one at the cell's end.
