@@ -104,14 +104,23 @@ Obstacle takeKept(const Arm &arm, const Track &track, double way, Look &look,
 
 /// Keeps a place at the end of a part that has become shorter; of too many the furthest goes.
 void keep(const Sample &sample, Look &look) noexcept {
-  if (look.keptCount > 0 && look.kept[look.keptCount - 1].way <= sample.way)
+  int32_t place = look.keptCount;
+  while (place > 0 && look.kept[place - 1].way < sample.way)
+    --place;
+  if (place > 0 && look.kept[place - 1].way == sample.way)
     return;
   if (look.keptCount == kKeptSamples) {
-    for (int32_t k = 1; k < kKeptSamples; ++k)
+    if (place == 0)
+      return;
+    for (int32_t k = 1; k < place; ++k)
       look.kept[k - 1] = look.kept[k];
-    --look.keptCount;
+    look.kept[place - 1] = sample;
+    return;
   }
-  look.kept[look.keptCount++] = sample;
+  for (int32_t k = look.keptCount; k > place; --k)
+    look.kept[k] = look.kept[k - 1];
+  look.kept[place] = sample;
+  ++look.keptCount;
 }
 
 /// How far the middle is from where a straight line has it, over the axes, in units of their

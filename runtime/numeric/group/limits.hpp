@@ -65,7 +65,7 @@ struct Sample {
   double speedChange; ///< Its derivative.
 };
 
-inline constexpr int32_t kKeptSamples = 4;
+inline constexpr int32_t kKeptSamples = 5;
 
 /// A part of a track that is being looked at. All zero at first, but for what is asked for.
 struct Look {

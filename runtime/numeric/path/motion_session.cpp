@@ -9,7 +9,8 @@ namespace {
 using exact::larger;
 using exact::smaller;
 
-constexpr int32_t kStepsPerCell = 24;    ///< Of a plan, or a few more.
+constexpr int32_t kStepsPerCell = 24; ///< Of a plan, or a few more.
+constexpr int32_t kLeanStepsPerCell = 20;
 constexpr int32_t kTrapezoidSteps = 128; ///< Of a plan without cells, about.
 constexpr int32_t kFirstCells = 96;      ///< Of the first plan after rest: it is to begin soon.
 constexpr int32_t kCellsToStop = 75;     ///< Of a plan that only stops, about.
@@ -191,7 +192,8 @@ bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
   const double left = timeLeft(motion);
   double free = left - motion.tail;
   const auto leadFor = [&motion, budget](int32_t cells) {
-    const int32_t steps = hasJerk(motion) ? kStepsPerCell * cells : kTrapezoidSteps;
+    const int32_t perCell = motion.asked.settings.lean ? kLeanStepsPerCell : kStepsPerCell;
+    const int32_t steps = hasJerk(motion) ? perCell * cells : kTrapezoidSteps;
     return 1.1 * planningTime(motion, steps, budget);
   };
   int32_t cells = motion.cells < kCells / 2 ? 2 * motion.cells : kCells;

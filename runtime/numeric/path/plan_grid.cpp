@@ -9,10 +9,11 @@ using exact::smaller;
 
 constexpr double kGrowth = 1.3; ///< Of cells, from one to the next.
 constexpr double kCoarse = 3.0; ///< Cells where it only brakes for an open end, as a multiple.
-constexpr double kCoarseGrowth = 1.6; ///< Of these.
-constexpr double kRampPart = 0.06;    ///< See cellLength.
-constexpr double kSteadyPart = 0.3;   ///< See cellLength.
-constexpr int kStripsLookedAt = 16;   ///< For the length of a rest cell.
+constexpr double kCoarseGrowth = 1.6;  ///< Of these.
+constexpr double kRampPart = 0.06;     ///< See cellLength.
+constexpr double kLeanRampPart = 0.08; ///< Likewise.
+constexpr double kSteadyPart = 0.3;    ///< See cellLength.
+constexpr int kStripsLookedAt = 16;    ///< For the length of a rest cell.
 /// A rest cell is at most this part of the run. Constant jerk out of rest is right for 1/12 of a
 /// short one.
 constexpr double kRestPart = 1.0 / 13.0;
@@ -61,6 +62,8 @@ double cellLength(const Plan &plan, double velocity, double needed, double part)
   return plan.coarse ? kCoarse * length : length;
 }
 
+double rampPartOf(const Plan &plan) noexcept { return plan.task.lean ? kLeanRampPart : kRampPart; }
+
 double growthOf(const Plan &plan) noexcept { return plan.coarse ? kCoarseGrowth : kGrowth; }
 
 /// Whether the run only brakes from the present knot on, for its end where no more of the path is
@@ -79,7 +82,8 @@ bool isHurried(const Plan &plan) noexcept {
 /// The same for one beside a cell of `rest` next to rest. [u]
 double lengthBesideRest(const Plan &plan, double jerk, double rest) noexcept {
   const double velocity = exact::sqrt(squareFromRest(jerk, rest));
-  return cellLength(plan, velocity, timeFromRest(velocity, exact::kInfinity, jerk), kRampPart);
+  return cellLength(plan, velocity, timeFromRest(velocity, exact::kInfinity, jerk),
+                    rampPartOf(plan));
 }
 
 /// The length of a strip's part that belongs to the run. [u]
@@ -196,7 +200,7 @@ void putFirstCell(Plan &plan, const Course &course) noexcept {
   const double room = plan.end - plan.endRest - plan.knot;
   const double needed = timeFromRest(plan.task.velocity, exact::kInfinity, jerk);
   const double length =
-      smaller(0.5 * cellLength(plan, plan.task.velocity, needed, kRampPart), 0.25 * room);
+      smaller(0.5 * cellLength(plan, plan.task.velocity, needed, rampPartOf(plan)), 0.25 * room);
   putCell(plan, course, plan.task.way + length, plan.task.way + 0.5 * length);
 }
 
@@ -215,7 +219,7 @@ double steadyWay(const Plan &plan, const Course &course) noexcept {
 /// further it is to where it changes. [u]
 double steadyLength(const Plan &plan, const Course &course, double velocity,
                     double needed) noexcept {
-  const double atRamp = cellLength(plan, velocity, needed, kRampPart);
+  const double atRamp = cellLength(plan, velocity, needed, rampPartOf(plan));
   const double growth = growthOf(plan);
   const double growing = (atRamp + (growth - 1.0) * steadyWay(plan, course)) / growth;
   return larger(cellLength(plan, velocity, needed, kSteadyPart), growing);
@@ -228,7 +232,7 @@ double nextLength(const Plan &plan, const Course &course, const Idea &idea, doub
   const double needed =
       timeFromRest(velocity, 2.0 * smaller(idea.acceleration, idea.deceleration), idea.jerk);
   const double wish = square >= idea.most ? steadyLength(plan, course, velocity, needed)
-                                          : cellLength(plan, velocity, needed, kRampPart);
+                                          : cellLength(plan, velocity, needed, rampPartOf(plan));
   const double growth = growthOf(plan);
   double length = smaller(larger(wish, 0.1 * plan.step), growth * plan.step);
   length = smaller(length, (plan.endStep + (growth - 1.0) * left) / growth);
