@@ -13,28 +13,28 @@ namespace stride::test {
 /// A point of a path, with the names of the manual.
 struct PathPoint {
   float x = 0, y = 0, z = 0;
-  std::int16_t type = 0;
-  std::int16_t parW1 = 1, parW2 = 15, parW3 = 100, parW4 = 0;
+  int16_t type = 0;
+  int16_t parW1 = 1, parW2 = 15, parW3 = 100, parW4 = 0;
   float parF1 = 0, parF2 = 0, parF3 = 0;
   float speed = 0;
 };
 
-inline void addReal(std::vector<std::int16_t> &words, float value) {
-  std::uint32_t bits = 0;
+inline void addReal(std::vector<int16_t> &words, float value) {
+  uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
-  words.push_back(static_cast<std::int16_t>(bits & 0xFFFF));
-  words.push_back(static_cast<std::int16_t>(bits >> 16));
+  words.push_back(static_cast<int16_t>(bits & 0xFFFF));
+  words.push_back(static_cast<int16_t>(bits >> 16));
 }
 
-inline std::vector<std::int16_t> pathWords(const std::vector<PathPoint> &points, int axes = 2) {
-  std::vector<std::int16_t> words{static_cast<std::int16_t>(points.size()),
-                                  static_cast<std::int16_t>(axes),
-                                  static_cast<std::int16_t>(axes == 2 ? 17 : 19),
+inline std::vector<int16_t> pathWords(const std::vector<PathPoint> &points, int axes = 2) {
+  std::vector<int16_t> words{static_cast<int16_t>(points.size()),
+                                  static_cast<int16_t>(axes),
+                                  static_cast<int16_t>(axes == 2 ? 17 : 19),
                                   0,
                                   0,
                                   0};
   for (int i = 0; i < axes; ++i)
-    words.push_back(static_cast<std::int16_t>(1 + i));
+    words.push_back(static_cast<int16_t>(1 + i));
   for (const PathPoint &point : points) {
     addReal(words, point.x);
     addReal(words, point.y);
@@ -42,7 +42,7 @@ inline std::vector<std::int16_t> pathWords(const std::vector<PathPoint> &points,
       addReal(words, point.z);
     for (const float value : {point.speed, point.parF1, point.parF2, point.parF3})
       addReal(words, value);
-    for (const std::int16_t value :
+    for (const int16_t value :
          {point.type, point.parW1, point.parW2, point.parW3, point.parW4})
       words.push_back(value);
   }
