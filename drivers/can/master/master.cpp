@@ -65,7 +65,8 @@ void Master::executeStart() {
   judgeSync();
   judgeSetValues();
   awaitPdos();
-  const uint32_t syncs = config_.givesSync ? 1 : syncs_;
+  // Nodes answer the SYNC of somebody else as well.
+  const uint32_t syncs = syncs_ + (config_.givesSync ? 1 : 0);
   bool duplicate = false;
   for (Node &node : nodes_) {
     node.endReceive(syncs, news_);

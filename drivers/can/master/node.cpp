@@ -139,24 +139,22 @@ void Node::watchDrive(bus::News &news) {
 
 /// Synchronous TPDOs: one for each SYNC. Late ones come with the next.
 void Node::countPdos(uint32_t syncs) {
-  const uint32_t due = std::max(syncs, 1U);
   bool all = true;
-  uint32_t most = 0;
   bool any = false;
   for (size_t i = 0; i < config_.plan.tpdoCount; ++i) {
     if (!config_.plan.tpdos[i].synchronous())
       continue;
     any = true;
     all = all && arrived_[i] > 0;
-    most = std::max<uint32_t>(most, arrived_[i]);
+    balances_[i].count(arrived_[i], std::max(syncs, 1U));
   }
-  if (!any)
-    return;
-  missing_ = all ? 0 : std::min(missing_ + 1, config_.pdoTimeout);
-  if (most > due)
-    excess_ = std::min(excess_ + most - due, kMostExcess);
-  else if (most == 0 && excess_ > 0 && !duplicate())
-    --excess_;
+  if (any)
+    missing_ = all ? 0 : std::min(missing_ + 1, config_.pdoTimeout);
+}
+
+bool Node::duplicate() const {
+  return std::any_of(balances_.begin(), balances_.end(),
+                     [](const PdoBalance &balance) { return balance.second(); });
 }
 
 bool Node::pdosComplete() const {
@@ -305,7 +303,8 @@ void Node::reset() {
   user_ = SdoUser::None;
   loss_ = NodeLoss::None;
   silent_ = saidSilent_ = saidStuck_ = false;
-  missing_ = excess_ = wrongLength_ = failedSends_ = 0;
+  missing_ = wrongLength_ = failedSends_ = 0;
+  balances_ = {};
   seen_ = 0;
 }
 

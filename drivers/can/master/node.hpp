@@ -6,6 +6,7 @@
 #include "drivers/can/master/emcy.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/master/parameter_transfer.hpp"
+#include "drivers/can/master/pdo_balance.hpp"
 #include "drivers/can/master/sdo_client.hpp"
 #include "drivers/can/master/start_up.hpp"
 #include "drivers/can/master/supervision.hpp"
@@ -75,8 +76,8 @@ public:
   [[nodiscard]] bool communication() const;
   [[nodiscard]] bool started() const { return phase_ == Phase::Started; }
   [[nodiscard]] NodeLoss loss() const { return loss_; }
-  /// In its present start-up, or in operation, more synchronous PDOs have come than it may send.
-  [[nodiscard]] bool duplicate() const { return excess_ >= kMostExcess; }
+  /// In operation more synchronous PDOs have come than it may send.
+  [[nodiscard]] bool duplicate() const;
   [[nodiscard]] Drive402 &drive() { return drive_; }
   [[nodiscard]] const Drive402 &drive() const { return drive_; }
   [[nodiscard]] ParameterTransfer &parameters() { return parameters_; }
@@ -89,7 +90,6 @@ public:
 private:
   enum class Phase : uint8_t { Idle, Starting, Started, Failed };
   enum class SdoUser : uint8_t { None, Drive, Parameter };
-  static constexpr uint32_t kMostExcess = 3;
 
   struct Rpdo {
     Frame frame;
@@ -124,11 +124,11 @@ private:
   std::array<Rpdo, DrivePlan::kMostPdos> rpdos_{};
   std::array<uint8_t, DrivePlan::kMostPdos> arrived_{}; ///< TPDOs of this cycle, by place …
   std::array<bool, DrivePlan::kMostPdos> atSync_{};     ///< … and since the last SYNC.
-  ObjectWish wish_;                                     ///< The drive's, under way.
+  std::array<PdoBalance, DrivePlan::kMostPdos> balances_{};
+  ObjectWish wish_; ///< The drive's, under way.
   std::array<uint8_t, 4> wishBytes_{};
   uint32_t refreshCycles_;
   uint32_t missing_ = 0;     ///< Cycles without a synchronous TPDO.
-  uint32_t excess_ = 0;      ///< Synchronous TPDOs beyond one in each cycle.
   uint32_t wrongLength_ = 0; ///< TPDOs of another length, in a row.
   uint32_t failedSends_ = 0; ///< Cycles in a row in which an RPDO did not go out.
   uint32_t bootUps_ = 0;     ///< When it had started.
