@@ -50,6 +50,10 @@ NodeConfig busConfig(const bus::GroupSetup &setup, const bus::SetupParameters &g
   node.heartbeat = setup.busParameters.number("heartbeat");
   node.masterNode = static_cast<uint8_t>(setup.busParameters.number("node_id"));
   node.guard = given.number("guard");
+  const auto lss = static_cast<int64_t>(given.number("lss"));
+  node.lss.wanted = lss != kLssNone;
+  node.lss.store = lss == kLssStore;
+  node.lss.bitRate = lss::bitRateIndex(bitRateOf(setup));
   node.pdoTimeout = static_cast<uint32_t>(given.number("pdo_timeout"));
   return node;
 }
@@ -162,6 +166,7 @@ void addFileParameters(const bus::GroupSetup &setup, CanSetup &result) {
 NodeConfig nobody(const NodeConfig &like) {
   NodeConfig node = like;
   node.plan = {};
+  node.lss = {};
   return node;
 }
 

@@ -59,6 +59,11 @@ double stepsPerUnit(const bus::SetupParameters &encoder) {
   return encoder.number("dwRatioTechUnitsDenom") / encoder.number("iRatioTechUnitsNum");
 }
 
+/// A node that is to get its number by LSS has none.
+uint8_t idOf(const bus::SetupParameters &given, uint32_t number) {
+  return given.number("lss") != 0 ? simulation::kUnconfigured : static_cast<uint8_t>(number);
+}
+
 /// A drive that is what stride.toml expects.
 simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPlan &plan,
                                      const CanSetup &can, size_t index) {
@@ -66,7 +71,7 @@ simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPl
   const bus::SetupParameters &given = drive.parameters;
   const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
   simulation::Drive402Setup result;
-  result.node.id = static_cast<uint8_t>(drive.id);
+  result.node.id = idOf(given, drive.id);
   result.node.vendor = number("identity.vendor");
   result.node.product = number("identity.product");
   result.node.revision = number("identity.revision");
@@ -95,7 +100,7 @@ std::unique_ptr<simulation::SimulatedEncoder406> makeEncoder(const bus::GroupSet
   const bus::SetupParameters &given = encoder.parameters;
   const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
   simulation::Encoder406Setup result;
-  result.node.id = static_cast<uint8_t>(encoder.id);
+  result.node.id = idOf(given, encoder.id);
   result.node.name = "Stride simulated encoder";
   result.node.vendor = number("identity.vendor");
   result.node.product = number("identity.product");
@@ -123,7 +128,7 @@ std::unique_ptr<simulation::SimulatedIo401> makeIo(const bus::IoSetup &io, const
     return static_cast<uint32_t>(io.parameters.number(name));
   };
   simulation::Io401Setup result;
-  result.node.id = static_cast<uint8_t>(number("node"));
+  result.node.id = idOf(io.parameters, number("node"));
   result.node.name = "Stride simulated I/O device";
   result.node.vendor = number("identity.vendor");
   result.node.product = number("identity.product");

@@ -4,6 +4,7 @@
 
 #include "drivers/can/master/drive402.hpp"
 #include "drivers/can/master/emcy.hpp"
+#include "drivers/can/master/lss_assignment.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/master/parameter_transfer.hpp"
 #include "drivers/can/master/pdo_balance.hpp"
@@ -67,6 +68,14 @@ public:
   void nmtSent() { nmt_ = NmtCommand::None; }
   [[nodiscard]] Supervision &supervision() { return supervision_; }
   [[nodiscard]] SdoClient &sdo() { return sdo_; }
+
+  /// It is still to be given its number by LSS …
+  [[nodiscard]] bool wantsNumber() const { return wantsNumber_; }
+  [[nodiscard]] LssOrder lssOrder() const;
+  /// … which has ended so.
+  void numbered(const LssOutcome &outcome, bus::News &news);
+  /// Nodes of the bus get their numbers.
+  void setLssBusy(bool busy) { lssBusy_ = busy; }
 
   bus::StartUp init(uint16_t &progress, bus::Message &message, bus::News &news);
   void reset();
@@ -138,6 +147,9 @@ private:
   Phase phase_ = Phase::Idle;
   SdoUser user_ = SdoUser::None;
   NodeLoss loss_ = NodeLoss::None;
+  LssOutcome lss_;
+  bool wantsNumber_;
+  bool lssBusy_ = false;
   bool silent_ = false;
   bool late_ = false;
   bool saidSilent_ = false;

@@ -37,18 +37,30 @@ struct OpRow {
   StartOp op;
   Manner manner;
 };
-constexpr std::array<OpRow, 22> kOps = {{
-    {StartOp::Reset, Manner::Act},           {StartOp::BootUp, Manner::Act},
-    {StartOp::DeviceType, Manner::Read},     {StartOp::Identity, Manner::Read},
-    {StartOp::SupportedModes, Manner::Read}, {StartOp::RatedTorque, Manner::Read},
-    {StartOp::RatedCurrent, Manner::Read},   {StartOp::HomeOffset, Manner::Read},
-    {StartOp::RangeLow, Manner::Read},       {StartOp::RangeHigh, Manner::Read},
-    {StartOp::EncoderRange, Manner::Read},   {StartOp::StampDate, Manner::Read},
-    {StartOp::StampTime, Manner::Read},      {StartOp::NoRemote, Manner::Read},
-    {StartOp::Write, Manner::Write},         {StartOp::WriteConsumer, Manner::Write},
-    {StartOp::WriteMode, Manner::Write},     {StartOp::ReadMode, Manner::Read},
-    {StartOp::Supervise, Manner::Act},       {StartOp::Start, Manner::Act},
-    {StartOp::Operational, Manner::Act},     {StartOp::FirstPdo, Manner::Act},
+constexpr std::array<OpRow, 23> kOps = {{
+    {StartOp::Lss, Manner::Act},
+    {StartOp::Reset, Manner::Act},
+    {StartOp::BootUp, Manner::Act},
+    {StartOp::DeviceType, Manner::Read},
+    {StartOp::Identity, Manner::Read},
+    {StartOp::SupportedModes, Manner::Read},
+    {StartOp::RatedTorque, Manner::Read},
+    {StartOp::RatedCurrent, Manner::Read},
+    {StartOp::HomeOffset, Manner::Read},
+    {StartOp::RangeLow, Manner::Read},
+    {StartOp::RangeHigh, Manner::Read},
+    {StartOp::EncoderRange, Manner::Read},
+    {StartOp::StampDate, Manner::Read},
+    {StartOp::StampTime, Manner::Read},
+    {StartOp::NoRemote, Manner::Read},
+    {StartOp::Write, Manner::Write},
+    {StartOp::WriteConsumer, Manner::Write},
+    {StartOp::WriteMode, Manner::Write},
+    {StartOp::ReadMode, Manner::Read},
+    {StartOp::Supervise, Manner::Act},
+    {StartOp::Start, Manner::Act},
+    {StartOp::Operational, Manner::Act},
+    {StartOp::FirstPdo, Manner::Act},
 }};
 constexpr bool opsAreInOrder() {
   for (size_t i = 0; i < kOps.size(); ++i)
@@ -133,11 +145,10 @@ bool StartUp::disturbed(const StartParts &parts, bus::Message &message) {
       return true;
     }
     bootUps_ = bootUps;
-    const bool awaited = now().op == StartOp::Reset || now().op == StartOp::BootUp;
     const auto first = std::find_if(steps_.begin(), steps_.end(), [](const StartStep &step) {
-      return step.op != StartOp::Reset && step.op != StartOp::BootUp;
+      return step.op > StartOp::BootUp;
     });
-    if (!awaited) { // it has come late, and knows nothing of what it has been told
+    if (!awaitsBootUp()) { // it has come late, and knows nothing of what it has been told
       parts.sdo.clear();
       go(static_cast<size_t>(first - steps_.begin()));
     }
@@ -159,7 +170,12 @@ StartUp::Outcome StartUp::await(bool there, std::string_view text, bus::Message 
 
 StartUp::Outcome StartUp::act(const StartParts &parts, bus::Message &message) {
   switch (now().op) {
+  case StartOp::Lss:
+    return awaitNumber(parts, message);
   case StartOp::Reset:
+    if (parts.lssBusy)
+      return Outcome::Busy;
+    bootUps_ = 0;
     parts.supervision.clear();
     parts.sdo.clear();
     parts.nmt = kResets[static_cast<size_t>(parts.config.reset)];
@@ -181,8 +197,27 @@ StartUp::Outcome StartUp::act(const StartParts &parts, bus::Message &message) {
   }
 }
 
+/// A node that has got another number boots with it, and is not reset before that.
+StartUp::Outcome StartUp::awaitNumber(const StartParts &parts, bus::Message &message) const {
+  if (parts.lssBusy)
+    return Outcome::Busy;
+  switch (parts.lss.kind) {
+  case LssOutcome::Kind::Refused:
+    message.set("node ", uint32_t{node_}, ": the device refuses this number (LSS)");
+    return Outcome::Failed;
+  case LssOutcome::Kind::InUse:
+    message.set("node ", uint32_t{node_}, ": the device has the number of node ",
+                uint32_t{parts.lss.before}, ", which is in operation: switch it off and on");
+    return Outcome::Failed;
+  case LssOutcome::Kind::Assigned:
+    return awaitBootUp(parts);
+  default:
+    return Outcome::Next;
+  }
+}
+
 /// Without its message the node may have been there for long: it is asked.
-StartUp::Outcome StartUp::awaitBootUp(const StartParts &parts) {
+StartUp::Outcome StartUp::awaitBootUp(const StartParts &parts) const {
   return parts.supervision.bootUps() > 0 || waited_ >= patience_ ? Outcome::Next : Outcome::Busy;
 }
 
@@ -292,6 +327,8 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
   message.set("node ", uint32_t{node_});
   if (parts.sdo.timedOut() && now().op == StartOp::DeviceType) {
     message.append(" does not answer: is it on, with this number and bit rate?");
+    if (parts.lss.kind == LssOutcome::Kind::NotFound)
+      message.append(" No node with its identity answers by LSS, either");
     return Outcome::Failed;
   }
   message.append(", ");
