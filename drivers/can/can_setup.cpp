@@ -134,6 +134,10 @@ void addOrReplace(std::vector<SdoWrite> &writes, SdoWrite write) {
     writes.push_back(write);
     return;
   }
+  if (!same->bytes.empty()) { // a parameter has 32 bits: the drive is asked, and it will not fit
+    *same = write;
+    return;
+  }
   const uint32_t above =
       same->size < sizeof(uint32_t) ? write.value >> (8U * same->size - 1U) : uint32_t{0};
   const bool fits = above >> 1U == 0 || above == UINT32_MAX >> (8U * same->size - 1U);

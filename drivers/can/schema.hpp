@@ -131,8 +131,8 @@ inline constexpr std::array kDrive = {
         .says("one unit of the drive's velocities (606Ch, 60FFh, 60B1h)"),
     list("startup").says(
         "objects that are written when the drive starts, after its PDOs, in this order: "
-        "`[\"6098h := 35\", \"2031h:2 := UINT#500\"]`; the type may be left out where CiA 402 "
-        "fixes it"),
+        "`[\"6098h := 35\", \"2031h:2 := UINT#500\", \"2033h := 'Axis 1'\"]`; the type may be left "
+        "out where CiA 402 fixes it"),
     text("parameters")
         .says("a file in the folder for files, written by SMC_WriteDriveParamsToFile as text or "
               "XML: its parameters are written when the drive starts, after `startup`"),

@@ -2,6 +2,7 @@
 
 #include "drivers/can/can_setup.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -23,17 +24,12 @@ simulation::BusSetup busSetup(const bus::GroupSetup &setup, const CanSetup &can)
 constexpr uint16_t kDeviceObjects = 0x2000;
 
 simulation::DataType typeOf(uint32_t bits) {
-  switch (bits) {
-  case 8:
-    return simulation::DataType::Unsigned8;
-  case 16:
-    return simulation::DataType::Unsigned16;
-  case 0: // whatever it is
-  case 32:
-    return simulation::DataType::Unsigned32;
-  default:
-    return simulation::DataType::Unsigned64;
-  }
+  using Type = simulation::DataType;
+  constexpr std::array kByBytes = {Type::Unsigned32, // whatever it is
+                                   Type::Unsigned8,  Type::Unsigned16, Type::Unsigned24,
+                                   Type::Unsigned32, Type::Unsigned40, Type::Unsigned48,
+                                   Type::Unsigned56, Type::Unsigned64};
+  return kByBytes[std::min<size_t>(bits / 8, kByBytes.size() - 1)];
 }
 
 /// Objects of its maker that it is given at start-up, or has in its own PDOs.
@@ -47,7 +43,13 @@ std::vector<simulation::ObjectRow> moreObjects(const DriveSettings &settings) {
                       .mapping = simulation::kInBoth});
   };
   for (const SdoWrite &write : settings.startup)
-    add(write.object, 8U * write.size);
+    if (write.bytes.empty() || write.bytes.size() == sizeof(uint64_t))
+      add(write.object, static_cast<uint32_t>(8U * write.length()));
+    else if (write.object.index >= kDeviceObjects)
+      rows.push_back({.index = write.object.index,
+                      .sub = write.object.sub,
+                      .type = simulation::DataType::VisibleString,
+                      .room = write.bytes.size()});
   for (const std::vector<Pdo> *pdos : {&settings.rpdos, &settings.tpdos})
     for (const Pdo &pdo : *pdos)
       for (const PdoEntry &entry : pdo.mapped())

@@ -76,6 +76,19 @@ Manner mannerOf(StartOp op) { return kOps[static_cast<size_t>(op)].manner; }
 constexpr std::array<NmtCommand, 3> kResets = {NmtCommand::ResetCommunication,
                                                NmtCommand::ResetNode, NmtCommand::PreOperational};
 
+/// A parameter of a PDO, communication or mapping.
+bool isOfPdo(Object object) {
+  return object.index >= object::kRpdoCommunication && object.index < object::kTpdoMapping + 0x200;
+}
+
+/// Only makes a PDO ready to be changed: it is switched off, or has no objects for a while.
+bool preparesPdo(const SdoWrite &write) {
+  const bool mapping = (write.object.index & 0x200U) != 0; // 1600h …, 1A00h …
+  if (mapping)
+    return write.object.sub == 0 && write.value == 0;
+  return write.object.sub == 1 && (write.value & kPdoInvalid) != 0 && !write.optional;
+}
+
 /// What an output of an I/O device becomes without a master.
 bool isErrorValue(Object object) {
   constexpr std::array kOfOutputs = {object::kOutputErrorMode, object::kOutputErrorValue,
@@ -110,6 +123,7 @@ void StartUp::go(size_t place) {
   place_ = place;
   waited_ = 0;
   asked_ = false;
+  compares_ = false;
   measured_ = 0;
 }
 
@@ -262,9 +276,13 @@ bool StartUp::chooseMode(const StartParts &parts, bus::Message &message) {
 
 StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
   const SdoWrite &object = now().object;
-  const bool measures = object.size == 0 && measured_ == 0; // before it is written
-  if (mannerOf(now().op) == Manner::Read || (now().op == StartOp::Write && measures)) {
+  const bool measures = object.length() == 0 && measured_ == 0; // before it is written
+  if (mannerOf(now().op) == Manner::Read || compares_ || (now().op == StartOp::Write && measures)) {
     asked_ = parts.sdo.upload(object.object, bytes_);
+    return Outcome::Busy;
+  }
+  if (!object.bytes.empty()) {
+    asked_ = parts.sdo.download(object.object, object.bytes);
     return Outcome::Busy;
   }
   uint32_t value = valueOf(object, parts.facts);
@@ -290,11 +308,32 @@ StartUp::Outcome StartUp::answered(const StartParts &parts, bus::Message &messag
   default:
     break;
   }
-  if (now().op == StartOp::Write && now().object.size == 0 && measured_ == 0)
+  if (now().op == StartOp::Write && now().object.length() == 0 && measured_ == 0)
     return measured(parts, message);
-  if (mannerOf(now().op) == Manner::Write)
+  if (mannerOf(now().op) == Manner::Write && !compares_)
     return Outcome::Next;
-  return taken(parts, numberOf(std::span<const uint8_t>(bytes_).first(parts.sdo.size())), message);
+  const uint32_t value = numberOf(std::span<const uint8_t>(bytes_).first(parts.sdo.size()));
+  return compares_ ? compared(value, parts, message) : taken(parts, value, message);
+}
+
+/// A device may have PDOs that cannot be changed: they will do if they are what is wanted.
+StartUp::Outcome StartUp::fixedPdo(const SdoWrite &write) {
+  if (preparesPdo(write))
+    return Outcome::Next;
+  compares_ = true;
+  asked_ = false;
+  return Outcome::Busy;
+}
+
+StartUp::Outcome StartUp::compared(uint32_t value, const StartParts &parts,
+                                   bus::Message &message) const {
+  const SdoWrite &write = now().object;
+  const uint32_t wanted = valueOf(write, parts.facts);
+  if (value == wanted)
+    return Outcome::Next;
+  message.set("node ", uint32_t{node_}, ", ", ObjectText(write.object), " is fixed: it is ",
+              HexText(value), ", and would have to be ", HexText(wanted));
+  return Outcome::Failed;
 }
 
 /// The node has told how long the object is: what is cut off of the value must be nothing, or its
@@ -324,6 +363,10 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
     noRemote_ = now().op == StartOp::NoRemote ? 0 : noRemote_;
     return Outcome::Next;
   }
+  const bool isFixed = code == abort_code::kReadOnly || code == abort_code::kUnsupported;
+  if (now().op == StartOp::Write && isOfPdo(object.object) && isFixed && !compares_ &&
+      !parts.sdo.timedOut())
+    return fixedPdo(object);
   message.set("node ", uint32_t{node_});
   if (parts.sdo.timedOut() && now().op == StartOp::DeviceType) {
     message.append(" does not answer: is it on, with this number and bit rate?");
@@ -333,7 +376,7 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
   }
   message.append(", ");
   message.append(ObjectText(object.object));
-  if (mannerOf(now().op) == Manner::Write) {
+  if (mannerOf(now().op) == Manner::Write && object.bytes.empty()) {
     message.append(" := ");
     message.append(HexText(valueOf(object, parts.facts)));
   }

@@ -90,6 +90,8 @@ private:
   Outcome answered(const StartParts &parts, bus::Message &message);
   Outcome measured(const StartParts &parts, bus::Message &message);
   Outcome refused(const StartParts &parts, bus::Message &message);
+  Outcome fixedPdo(const SdoWrite &write);
+  Outcome compared(uint32_t value, const StartParts &parts, bus::Message &message) const;
   Outcome taken(const StartParts &parts, uint32_t value, bus::Message &message);
   Outcome awaitNumber(const StartParts &parts, bus::Message &message) const;
   [[nodiscard]] Outcome awaitBootUp(const StartParts &parts) const;
@@ -122,6 +124,7 @@ private:
   bool asked_ = false; ///< The question of this step is under way.
   /// Bytes of the object of this step, that its node has told; 0: it has not.
   uint8_t measured_ = 0;
+  bool compares_ = false; ///< What this step would write is fixed: it must be what is wanted.
   bool stampFits_ = false;
   bool lacksConsumer_ = false;
   bool lacksHeartbeat_ = false;
