@@ -104,6 +104,7 @@ inline constexpr bus::DriverSchema kSchema = {
     .groupData = {.type = "SercosDrive.SERCOS_RING_SIM",
                   .suffix = "_Sim",
                   .what = "simulation of axis group"},
+    .givesSync = true,
     .drive = rows::kDrive,
     .driveTables = rows::kDriveTables,
     .check = checkGroup,

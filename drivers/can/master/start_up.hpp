@@ -2,6 +2,7 @@
 #ifndef STRIDE_DRIVERS_CAN_MASTER_START_UP_HPP
 #define STRIDE_DRIVERS_CAN_MASTER_START_UP_HPP
 
+#include "drivers/can/master/lss_assignment.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/master/sdo_client.hpp"
 #include "drivers/can/master/supervision.hpp"
@@ -15,6 +16,7 @@ namespace stride::can {
 
 /// What a step does.
 enum class StartOp : uint8_t {
+  Lss,            ///< Until the node has its number, and has booted with it.
   Reset,          ///< By NMT.
   BootUp,         ///< Until its message comes, or so long that it must be there.
   DeviceType,     ///< It must be of the profile that the kind of the node has.
@@ -40,7 +42,7 @@ enum class StartOp : uint8_t {
 };
 
 struct StartStep {
-  StartOp op = StartOp::Reset;
+  StartOp op = StartOp::Lss;
   uint8_t progress = 0; ///< 0 … 99, AXIS_REF.wCommunicationState.
   SdoWrite object;      ///< What is read or written; Identity: `value` is expected.
 };
@@ -59,6 +61,8 @@ struct StartParts {
   DriveFacts &facts;
   NmtCommand &nmt;  ///< To be sent; None again when it has been.
   bool pdosArrived; ///< Since the node is operational.
+  bool lssBusy;     ///< Nodes of the bus get their numbers: nobody is reset meanwhile.
+  const LssOutcome &lss;
 };
 
 class StartUp {
@@ -86,8 +90,11 @@ private:
   Outcome answered(const StartParts &parts, bus::Message &message);
   Outcome measured(const StartParts &parts, bus::Message &message);
   Outcome refused(const StartParts &parts, bus::Message &message);
+  Outcome fixedPdo(const SdoWrite &write);
+  Outcome compared(uint32_t value, const StartParts &parts, bus::Message &message) const;
   Outcome taken(const StartParts &parts, uint32_t value, bus::Message &message);
-  Outcome awaitBootUp(const StartParts &parts);
+  Outcome awaitNumber(const StartParts &parts, bus::Message &message) const;
+  [[nodiscard]] Outcome awaitBootUp(const StartParts &parts) const;
   Outcome awaitMode(const StartParts &parts, uint32_t value, bus::Message &message);
   Outcome checkType(const NodeConfig &config, uint32_t value, bus::Message &message) const;
   Outcome checkEncoder(const NodeConfig &config, uint32_t value, bus::Message &message) const;
@@ -100,6 +107,9 @@ private:
   void go(size_t place);
   void skipConfiguration();
   [[nodiscard]] uint32_t valueOf(const SdoWrite &write, const DriveFacts &facts) const;
+  [[nodiscard]] bool awaitsBootUp() const {
+    return now().op == StartOp::Lss || now().op == StartOp::Reset || now().op == StartOp::BootUp;
+  }
   [[nodiscard]] const StartStep &now() const { return steps_[place_]; }
 
   std::vector<StartStep> steps_;
@@ -114,6 +124,7 @@ private:
   bool asked_ = false; ///< The question of this step is under way.
   /// Bytes of the object of this step, that its node has told; 0: it has not.
   uint8_t measured_ = 0;
+  bool compares_ = false; ///< What this step would write is fixed: it must be what is wanted.
   bool stampFits_ = false;
   bool lacksConsumer_ = false;
   bool lacksHeartbeat_ = false;
