@@ -44,6 +44,13 @@ bool isWellFormed(const SourceFile &source, const ParseOptions &options) {
   });
 }
 
+bool hasChart(const SourceFile &source, const ParseOptions &options) {
+  Interner interner;
+  Arena arena;
+  Diagnostics ignored;
+  return parse(source, interner, arena, ignored, &options)->hasChart;
+}
+
 } // namespace
 
 FormatSettings readFormatSettings(const fs::path &place, Sources &sources,
@@ -103,6 +110,8 @@ void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settin
       parse(source, interner, arena, diagnostics, &options);
       continue;
     }
+    if (hasChart(source, options))
+      continue; // the lines of a chart stay as they are
     std::optional<std::string> text = format(source, settings.style);
     if (!text)
       throw std::logic_error(fmt::format("formatting `{}` would change what it says", file.name));

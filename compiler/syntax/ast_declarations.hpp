@@ -249,6 +249,7 @@ struct File {
   FileId id = 0;
   std::span<Decl *> declarations;
   std::span<StrayMember> strayMembers; ///< for attachMembers()
+  bool hasChart = false;               ///< some body is a sequential function chart
 };
 
 } // namespace stc::ast

@@ -31,7 +31,7 @@ size_t limitOf(const SourceFile &file) {
 
 FileParser::FileParser(const SourceFile &file, Interner &interner, Arena &arena,
                        Diagnostics &diagnostics, const ParseOptions *options)
-    : file_(file), arena_(arena), diagnostics_(diagnostics), conditions_(options),
+    : file_(file), interner_(interner), arena_(arena), diagnostics_(diagnostics), conditions_(options),
       scanner_(file, diagnostics, &conditions_), parser_(&stream_),
       builder_(scanner_, file.id(), stream_, interner, arena, diagnostics),
       giveUp_(std::make_shared<GiveUpStrategy>()),
@@ -148,6 +148,7 @@ ast::File *FileParser::run() {
     giveMembers(open);
   out->declarations = arena_.copy(declarations_);
   out->strayMembers = arena_.copy(strays_);
+  out->hasChart = sawChart_;
   return out;
 }
 

@@ -18,6 +18,10 @@
 
 namespace stc {
 
+struct Chart; // chart.hpp
+struct ChartStep;
+struct ChartTransition;
+
 class FileParser {
 public:
   FileParser(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics,
@@ -37,6 +41,9 @@ private:
   struct Content {
     std::vector<ast::VarDecl *> variables;
     std::vector<ast::Stmt *> statements;
+    std::unique_ptr<Chart> chart; ///< null: the body is no chart
+    Content();
+    ~Content();
   };
   /// Where `head` ended up.
   struct Head {
@@ -102,7 +109,20 @@ private:
   OpenPou *ownerOf(const Head &head, OpenPou *enclosing, ast::Decl *member);
   void finishBody(ast::PouDecl *node, Content &content);
   bool instructionList();
-  void chart();
+
+  // Sequential function charts.
+  [[nodiscard]] bool startsChart() const;
+  void chart(std::unique_ptr<Chart> &out);
+  void finishChart(const ast::PouDecl *node, Content &content);
+  bool chartToken(uint16_t type);
+  void chartError(const std::string &expected);
+  void skipChartPart(uint16_t end);
+  ast::Expr *chartExpression(const Token &target, bool (*ends)(uint16_t));
+  bool chartSteps(std::vector<ast::Name> &out, Token &last);
+  bool chartAction(ChartStep &step);
+  void chartStep(Chart &chart);
+  bool chartPriority(ChartTransition &out);
+  bool chartTransition(ChartTransition &out);
 
   /// How deep a declaration is nested: brackets, and ARRAY OF, POINTER TO before a type.
   struct Nesting {
@@ -157,6 +177,7 @@ private:
   template <class Context> Context *parseUnit(Context *(Grammar::*rule)());
 
   const SourceFile &file_;
+  Interner &interner_;
   Arena &arena_;
   Diagnostics &diagnostics_;
   Conditions conditions_;
@@ -172,6 +193,8 @@ private:
   std::vector<Token> unit_;
   bool sawExternal_ = false; ///< `{external}` since the current POU or method began
   Span externalSpan_;
+  bool sawChart_ = false;    ///< some body of the file is a chart
+  bool chartFailed_ = false; ///< the current chart has an error of syntax
   std::vector<ast::Decl *> declarations_;
   std::deque<OpenPou> pous_;
   std::vector<ast::StrayMember> strays_;
