@@ -15,13 +15,15 @@ Expr *ChartNodes::variable(const Name &of) {
   auto *node = arena_.make<NameExpr>();
   node->name = of;
   node->span = of.span;
+  if (of.span.end - of.span.begin != of.text.size())
+    node->name.span = {}; // another word stands there: this is no use of the name
   return node;
 }
 
 Expr *ChartNodes::member(const Name &of, const char *field, Span span) {
   auto *node = arena_.make<MemberExpr>();
   node->base = variable({of.id, of.text, span});
-  node->name = name(field, span);
+  node->name = name(field, {});
   node->span = span;
   return node;
 }
