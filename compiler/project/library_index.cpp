@@ -7,11 +7,16 @@
 namespace stc {
 
 /// Whether the library's names need its name in front: they are words that programs use themselves
-/// (Line, Bound). As in SoftMotion 3.
-static bool isQualifiedOnly(const EmbeddedFile &file) { return file.library == "SM3_CamBuilder"; }
+/// (Line, SIZE). As in SoftMotion 3 and CODESYS V3.
+static bool isQualifiedOnly(const EmbeddedFile &file) {
+  return file.library == "SM3_CamBuilder" || file.library == "CAA_Types" ||
+         file.library == "CAA_Memory";
+}
+
+static bool isForeign(const EmbeddedFile &file) { return file.library.starts_with("Tc2_"); }
 
 static LibraryIndex::Entry entryOf(const EmbeddedFile &file) {
-  return {file.library, file.fileName, file.text, isQualifiedOnly(file)};
+  return {file.library, file.fileName, file.text, isQualifiedOnly(file), isForeign(file)};
 }
 
 std::vector<LibraryIndex::Entry> EmbeddedLibraryIndex::find(std::string_view lowerName) const {
@@ -40,7 +45,7 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
     std::string_view lowerName;
     std::string_view library;
   };
-  static constexpr OtherName kSoftMotion3[] = {
+  static constexpr OtherName kOtherNames[] = {
       {"sm3_basic", "SM_DriveBasic"},
       {"sm3_basic", "SM_PLCopen"},
       {"sm3_basic", "SM_FileFBs"},
@@ -54,9 +59,19 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
       {"trafo", "SM_Trafo"},
       {"trafo", "SM3_Transformation"},
       {"sm3_commonpublic", "SM3_Robotics"},
+      // CODESYS V3 and TwinCAT 3
+      {"caa", "CAA_Types"},
+      {"mem", "CAA_Memory"},
+      {"stu", "StringUtils"},
+      {"standard64", "Standard"},
+      {"tc2_standard", "Standard"},
+      {"sysmem", "SysLibMem"},
+      {"systimecore", "SysTime"},
+      {"systimertc", "SysTime"},
+      {"ibaselibrary", "__SYSTEM"},
   };
   return equalIgnoringCase(library, lowerName) ||
-         std::any_of(std::begin(kSoftMotion3), std::end(kSoftMotion3), [&](const OtherName &other) {
+         std::any_of(std::begin(kOtherNames), std::end(kOtherNames), [&](const OtherName &other) {
            return other.lowerName == lowerName && other.library == library;
          });
 }

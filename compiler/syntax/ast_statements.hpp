@@ -46,6 +46,8 @@ struct CallStmt : Node<Stmt, StmtKind::Call> {
 
 struct IfBranch {
   Expr *condition = nullptr;
+  /// `IF a := b THEN` is `a := b; IF a THEN`: the assignment right before; null: there is none.
+  const AssignStmt *assigned = nullptr;
   Block body;
 };
 

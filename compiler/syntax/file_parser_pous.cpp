@@ -126,10 +126,15 @@ void FileParser::readHeadType() {
     }
   }
   const auto bracketed = [this](uint16_t closer) {
-    while (now_.type != closer && now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit())
+    const uint16_t opener = now_.type;
+    size_t depth = 0;
+    while (now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit()) {
+      depth += now_.type == opener ? 1 : 0;
+      depth -= now_.type == closer ? 1 : 0;
       take();
-    if (now_.type == closer)
-      take();
+      if (depth == 0)
+        break;
+    }
   };
   if (now_.type == Tok::STRING || now_.type == Tok::WSTRING) {
     take();

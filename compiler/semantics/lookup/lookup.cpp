@@ -52,6 +52,14 @@ Lookup::Lookup(Program &program, const LibraryIndex &index)
   }
 }
 
+BuiltinSymbol *Lookup::standardFunction(const Symbol *library, Ident id) const {
+  if (library->kind != SymbolKind::Library || ownModule(library->name.id->lower) != nullptr ||
+      !index_.answersTo("Standard", library->name.id->lower))
+    return nullptr;
+  const auto found = builtins_.find(id);
+  return found == builtins_.end() ? nullptr : found->second;
+}
+
 Symbol *Lookup::inPou(PouSymbol *pou, Ident id) {
   for (PouSymbol *p = pou; p != nullptr; p = p->owner) {
     VarSymbol *v = findVariable(p, id);

@@ -118,6 +118,24 @@ static void checkInLoop(Context &c, const Stmt *stmt) {
     d.help("leave the POU with RETURN");
 }
 
+/// The condition of a branch of IF. One that is assigned right before is a slip, or said to be
+/// none.
+static void checkBranch(Context &c, const IfBranch &branch) {
+  if (branch.assigned == nullptr)
+    return checkCondition(c, branch.condition, "the condition of IF");
+  const Type *type = check(c, branch.condition, elementaryType(TypeKind::Boolean));
+  if (isError(type))
+    return;
+  const Span sign = branch.assigned->opSpan;
+  if (type == elementaryType(TypeKind::Boolean))
+    c.report(Code::ConditionAssigned, sign, "`:=` assigns; what is assigned is the condition",
+             "is `=` meant?")
+        .help("write `=` to compare, or assign in a statement of its own before");
+  else
+    c.report(Code::AssignInCondition, sign, "`:=` assigns, it does not compare", "expected `=`")
+        .help("write `=` to compare");
+}
+
 static void checkStatement(Context &c, Stmt *stmt) {
   switch (stmt->kind) {
   case StmtKind::Empty:
@@ -131,7 +149,7 @@ static void checkStatement(Context &c, Stmt *stmt) {
     return checkCallStatement(c, as<CallStmt>(stmt));
   case StmtKind::If:
     for (const IfBranch &branch : as<IfStmt>(stmt)->branches) {
-      checkCondition(c, branch.condition, "the condition of IF");
+      checkBranch(c, branch);
       checkBlock(c, branch.body);
     }
     return checkBlock(c, as<IfStmt>(stmt)->elseBody);
