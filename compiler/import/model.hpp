@@ -55,14 +55,70 @@ struct KeptText {
   std::string text;
 };
 
+/// How far a value of another tool's configuration can be trusted.
+enum class Certainty {
+  Sure,    ///< the file says it
+  Guessed, ///< the user must look at it: it is marked in stride.toml and in the report
+  Missing, ///< the file does not say it: written as a comment that the user fills in
+};
+
+/// A parameter of stride.toml.
+struct Parameter {
+  std::string key;   ///< as in stride.toml: `wDriveId`
+  std::string value; ///< as TOML: `10000`, `"linear"`, `true`; of a missing one what to write there
+  Certainty certainty = Certainty::Sure;
+  std::string source; ///< where it comes from, for the report; empty: the file itself
+};
+
+/// A drive (an axis).
+struct DriveSetup {
+  std::string name; ///< that of its AXIS_REF
+  std::vector<Parameter> parameters;
+  Origin origin;
+};
+
+/// Drives that one task serves.
+struct DriveGroupSetup {
+  std::string name;
+  std::vector<Parameter> parameters;
+  std::vector<DriveSetup> drives;
+  Origin origin;
+};
+
+/// A bus; always of simulated drives, for other tools' drivers are not ours.
+struct BusSetup {
+  std::string name;
+  std::vector<DriveGroupSetup> groups;
+  Origin origin;
+};
+
+/// A named input or output of the hardware: it becomes a global variable at its address.
+struct IoChannel {
+  std::string name;    ///< of the variable
+  std::string address; ///< `%IX0.0`
+  std::string type;    ///< `BOOL`
+  std::string comment; ///< empty: none
+  Origin origin;
+};
+
+/// An address that had to change.
+struct MovedAddress {
+  std::string from; ///< as in the file: `%IX0.0.0.0`
+  std::string to;   ///< `%IX0.0`
+};
+
 /// All files of one import.
 struct Model {
   std::vector<Object> objects;
   std::vector<Task> tasks;
   std::vector<LibraryReference> libraries;
+  std::vector<BusSetup> buses;
+  std::vector<IoChannel> channels;
+  std::vector<MovedAddress> addresses;
   std::vector<KeptText> kept;
   std::vector<Remark> changed;
-  std::vector<Remark> leftOut; ///< losses
+  std::vector<Remark> leftOut;    ///< losses
+  std::vector<Remark> unreadable; ///< files of which nothing was taken
 };
 
 } // namespace stc::import
