@@ -1,6 +1,8 @@
 #include "compiler/import/exp_reader.hpp"
 
+#include "compiler/import/drawn_bodies.hpp"
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/networks/exp_networks.hpp"
 
 #include <array>
 #include <map>
@@ -36,9 +38,6 @@ constexpr std::array<SectionWord, 12> kSections = {{
     {"PLC_CONFIGURATION", "PLC_END", Section::LeftOut},
     {"VISUALISATION", "END_VISUALISATION", Section::LeftOut},
 }};
-
-/// First lines of bodies that are drawn, not written.
-constexpr std::array<std::string_view, 3> kDrawnBodies = {"_LD_BODY", "_FBD_BODY", "_CFC_BODY"};
 
 class Reader {
 public:
@@ -159,26 +158,38 @@ private:
         {kind, std::move(name), foldersOf(attributes_["PATH"]), std::move(text), originOf(begin)});
   }
 
-  /// The text without the attributes inside it. A drawn body becomes an error of the compiler.
+  /// The text without the attributes inside it.
   std::string sourceOf(size_t begin, const std::string &object,
                        const std::vector<std::string> &content) {
     std::string text;
-    std::string_view drawn;
     for (size_t i = 0; i < content.size(); ++i) {
       const std::string_view line = trimmed(content[i]);
       if (line.starts_with("(* @") && line.ends_with("*)") &&
           line.find(":=") != std::string_view::npos)
         continue;
-      for (const std::string_view body : kDrawnBodies)
-        if (drawn.empty() && line == body) {
-          drawn = body;
-          leaveOut(begin + i, object, fmt::format("its body is drawn ({})", body));
-          text += fmt::format("{{error 'body not imported: {}'}}\n", body);
-        }
-      if (drawn.empty() || i + 1 == content.size())
-        text += content[i] + "\n";
+      if (networks::beginsDrawnBody(line)) {
+        const std::vector<std::string> body(content.begin() + static_cast<ptrdiff_t>(i),
+                                            content.end() - 1);
+        return text + drawnBody(begin + i, object, body) + content.back() + "\n";
+      }
+      text += content[i] + "\n";
     }
     return text;
+  }
+
+  /// The mark for a body that is drawn; `body` begins with `_LD_BODY` or the like.
+  std::string drawnBody(size_t begin, const std::string &object,
+                        const std::vector<std::string> &body) {
+    std::vector<networks::NumberedLine> lines;
+    for (size_t i = 0; i < body.size(); ++i)
+      lines.push_back({body[i], begin + i + 1});
+    std::string_view kind = trimmed(body.front());
+    kind = kind.substr(1, kind.find("_BODY") - 1);
+    return markDrawnBody(
+        model_, originOf(begin), object, std::string(kind),
+        [lines = std::move(lines)](const networks::Scope &scope) {
+          return networks::translatedExpBody(lines, scope);
+        });
   }
 
   void addPou(size_t begin, const std::string &object, const std::vector<std::string> &content) {

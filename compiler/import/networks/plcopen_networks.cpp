@@ -1,8 +1,6 @@
 #include "compiler/import/networks/plcopen_networks.hpp"
 
 #include "compiler/import/networks/exp_pins.hpp"
-#include "compiler/import/networks/network.hpp"
-#include "compiler/import/networks/print.hpp"
 #include "compiler/import/networks/text.hpp"
 
 #include <algorithm>
@@ -89,9 +87,8 @@ constexpr std::array<std::pair<std::string_view, NodeKind>, 13> kKinds = {{
 
 class DrawingReader {
 public:
-  DrawingReader(const xml_node &drawing, const LineOf &lineOf, const Scope &scope,
-                Translation &result)
-      : drawing_(drawing), lineOf_(lineOf), scope_(scope), result_(result) {}
+  DrawingReader(const xml_node &drawing, const LineOf &lineOf, std::vector<Problem> &problems)
+      : drawing_(drawing), lineOf_(lineOf), problems_(problems) {}
 
   Body read() {
     bool titled = false;
@@ -110,7 +107,7 @@ public:
 
 private:
   void problem(const xml_node &node, std::string text) {
-    result_.problems.push_back({lineOf_(node), std::move(text)});
+    problems_.push_back({lineOf_(node), std::move(text)});
   }
 
   void readElement(const xml_node &node, bool titled) {
@@ -226,8 +223,6 @@ private:
     const std::string instance = xml.attribute("instanceName").value();
     const std::string call = addedText(xml, "CallType").value_or("");
     const std::optional<std::string> code = addedText(xml, "STCode");
-    const Interface *declared = scope_.interfaceOf(type);
-    const bool program = declared != nullptr && declared->kind == Interface::Kind::Program;
     node.text = type;
     if (code) {
       node.kind = NodeKind::Code;
@@ -236,23 +231,15 @@ private:
       node.kind = NodeKind::Call;
       node.text = instance;
       node.type = type;
-    } else if (call == "program" || call == "action" || program) {
+    } else if (call == "program" || call == "action") {
       node.kind = NodeKind::Call;
     }
     if (code && call != "execute" && !call.empty())
       problem(xml, fmt::format("a box of the kind `{}` with statements inside", call));
-    readBlockPins(xml, node, declared);
+    readBlockPins(xml, node);
   }
 
-  static bool declares(const Interface *declared, std::string_view pin) {
-    return declared != nullptr &&
-           (std::ranges::any_of(declared->inputs,
-                                [&](const Declared &d) { return upperCase(d.name) == pin; }) ||
-            std::ranges::any_of(declared->outputs,
-                                [&](const Declared &d) { return upperCase(d.name) == pin; }));
-  }
-
-  static void readBlockPins(const xml_node &xml, Node &node, const Interface *declared) {
+  static void readBlockPins(const xml_node &xml, Node &node) {
     for (const std::string_view group : {"inputVariables", "inOutVariables"})
       for (const xml_node each : child(xml, group).children()) {
         if (localName(each) != "variable")
@@ -262,7 +249,7 @@ private:
         pin.negated = isTrue(each, "negated");
         pin.edge = edgeIn(each);
         pin.inOut = group == "inOutVariables";
-        pin.enable = upperCase(pin.name) == "EN" && !declares(declared, "EN");
+        pin.enable = upperCase(pin.name) == "EN";
         node.inputs.push_back(std::move(pin));
       }
     for (const xml_node each : child(xml, "outputVariables").children()) {
@@ -272,7 +259,7 @@ private:
       pin.name = each.attribute("formalParameter").value();
       pin.negated = isTrue(each, "negated");
       pin.storage = storageIn(each);
-      pin.enable = upperCase(pin.name) == "ENO" && !declares(declared, "ENO");
+      pin.enable = upperCase(pin.name) == "ENO";
       const std::string target = expressionIn(child(each, "connectionPointOut"), "expression");
       pin.target = isBlankOperand(target) ? std::string() : target;
       node.outputs.push_back(std::move(pin));
@@ -354,8 +341,7 @@ private:
 
   xml_node drawing_;
   const LineOf &lineOf_;
-  const Scope &scope_;
-  Translation &result_;
+  std::vector<Problem> &problems_;
   Body body_;
   Network head_; ///< of the network that begins next
   std::map<std::string, NodeIndex> ids_;
@@ -374,15 +360,13 @@ xml_node drawingIn(const xml_node &body) {
   return {};
 }
 
-Translation translatedPlcOpenBody(const xml_node &body, const LineOf &lineOf, const Scope &scope) {
-  Translation result;
+Body readPlcOpenBody(const xml_node &body, const LineOf &lineOf, std::vector<Problem> &problems) {
   const xml_node drawing = drawingIn(body);
   if (!drawing) {
-    result.problems.push_back({lineOf(body), "no drawing that is known"});
-    return result;
+    problems.push_back({lineOf(body), "no drawing that is known"});
+    return {};
   }
-  Body read = DrawingReader(drawing, lineOf, scope, result).read();
-  return result.ok() ? translated(std::move(read), scope) : result;
+  return DrawingReader(drawing, lineOf, problems).read();
 }
 
 } // namespace stc::import::networks

@@ -2,12 +2,12 @@
 #define STRIDE_COMPILER_IMPORT_NETWORKS_PLCOPEN_NETWORKS_HPP
 // Drawn bodies in PLCopen XML (TC6) and in CODESYS's dialect of it.
 
-#include "compiler/import/networks/scope.hpp"
+#include "compiler/import/networks/network.hpp"
 #include "compiler/import/networks/translation.hpp"
 
 #include <functional>
-#include <optional>
 #include <pugixml.hpp>
+#include <vector>
 
 namespace stc::import::networks {
 
@@ -18,11 +18,11 @@ using LineOf = std::function<size_t(const pugi::xml_node &)>;
 /// addData beside an empty `ST`. Empty: none.
 [[nodiscard]] pugi::xml_node drawingIn(const pugi::xml_node &body);
 
-/// Translates it. Order: `executionOrderId` where there is one, networks and outputs as in the file
-/// where CODESYS marks networks, else outputs from the top to the bottom and from the left to the
-/// right. `scope` has entered the POU.
-[[nodiscard]] Translation translatedPlcOpenBody(const pugi::xml_node &body, const LineOf &lineOf,
-                                                const Scope &scope);
+/// Reads it; translated() makes Structured Text of it. Order: `executionOrderId` where there is one,
+/// networks and outputs as in the file where CODESYS marks networks, else outputs from the top to
+/// the bottom and from the left to the right. Elements that are not known are problems.
+[[nodiscard]] Body readPlcOpenBody(const pugi::xml_node &body, const LineOf &lineOf,
+                                   std::vector<Problem> &problems);
 
 } // namespace stc::import::networks
 

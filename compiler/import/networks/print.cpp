@@ -441,10 +441,37 @@ private:
   NodeIndex next_ = 0; ///< what is executed after the node at hand
 };
 
+/// Whether a block has a pin of that name of its own.
+bool declares(const Interface &declared, const std::vector<Declared> &pins, std::string_view name) {
+  return declared.kind == Interface::Kind::FunctionBlock &&
+         std::ranges::any_of(pins, [&](const Declared &d) { return upperCase(d.name) == name; });
+}
+
+/// What a file does not say, the declarations may: that a box is a program, that a block has an
+/// input EN like any other.
+void adopt(Body &body, const Scope &scope) {
+  for (Node &node : body.nodes) {
+    const Interface *declared = scope.interfaceOf(node.type.empty() ? node.text : node.type);
+    if (declared == nullptr || (node.kind != NodeKind::Value && node.kind != NodeKind::Call))
+      continue;
+    if (declared->kind == Interface::Kind::Program && node.type.empty())
+      node.kind = NodeKind::Call;
+    if (node.kind != NodeKind::Call)
+      continue;
+    for (InPin &pin : node.inputs)
+      pin.enable =
+          pin.enable && (pin.name.empty() || !declares(*declared, declared->inputs, "EN"));
+    for (OutPin &pin : node.outputs)
+      pin.enable =
+          pin.enable && (pin.name.empty() || !declares(*declared, declared->outputs, "ENO"));
+  }
+}
+
 } // namespace
 
 Translation translated(Body body, Scope scope) {
   Translation result;
+  adopt(body, scope);
   resolveLinks(body, result.problems);
   if (!result.ok())
     return result;

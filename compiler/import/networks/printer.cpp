@@ -107,11 +107,27 @@ const std::vector<NodeIndex> &Values::readingNodes(Wire from) const {
 size_t Values::readers(Wire from) const { return readingNodes(from).size(); }
 
 std::string Values::typeOf(Wire from) const {
-  std::string type = typeOfOutput(body_, from, scope_);
+  std::string type = typeOfOutput(body_, from, scope_, false);
   for (const NodeIndex reader : readingNodes(from))
-    if (type.empty() && body_.nodes[reader].kind == NodeKind::Output)
-      type = scope_.typeOf(body_.nodes[reader].text);
-  return type;
+    if (type.empty())
+      type = expectedBy(body_.nodes[reader], from);
+  return type.empty() ? typeOfOutput(body_, from, scope_, true) : type;
+}
+
+/// Type of the variable or of the block's pin that an output is wired to.
+std::string Values::expectedBy(const Node &reader, Wire from) const {
+  if (reader.kind == NodeKind::Output)
+    return scope_.typeOf(reader.text);
+  const Interface *declared =
+      reader.kind == NodeKind::Call ? scope_.interfaceOf(reader.type) : nullptr;
+  if (declared == nullptr)
+    return {};
+  for (const InPin &pin : reader.inputs)
+    for (const Wire &wire : pin.wires)
+      for (const Declared &each : declared->inputs)
+        if (portOf(wire) == portOf(from) && upperCase(each.name) == upperCase(pin.name))
+          return each.type;
+  return {};
 }
 
 std::optional<Expression> Values::read(const InPin &pin, size_t line) {

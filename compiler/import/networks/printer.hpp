@@ -77,6 +77,7 @@ private:
   [[nodiscard]] Expression wireValue(Wire wire);
   [[nodiscard]] bool mustBeStored(Wire from, const Expression &value, size_t uses) const;
   [[nodiscard]] bool reachesOneStatement(Wire from) const;
+  [[nodiscard]] std::string expectedBy(const Node &reader, Wire from) const;
   [[nodiscard]] std::string wishFor(Wire from) const;
   bool store(Port port, Value &value);
 

@@ -245,8 +245,9 @@ std::string typeOfText(std::string_view text, const Scope &scope) {
   return concrete(typeOfWords(text, scope, 0));
 }
 
-std::string typeOfOutput(const Body &body, Wire from, const Scope &scope) {
-  return concrete(Tracer(body, scope).output(from));
+std::string typeOfOutput(const Body &body, Wire from, const Scope &scope, bool guess) {
+  const std::string type = Tracer(body, scope).output(from);
+  return !guess && concrete(type) != type ? std::string() : concrete(type);
 }
 
 } // namespace stc::import::networks

@@ -11,8 +11,9 @@ namespace stc::import::networks {
 
 /// Type of an expression of the file; empty: not known.
 [[nodiscard]] std::string typeOfText(std::string_view text, const Scope &scope);
-/// Type of a node's output; empty: not known. Circles are followed once.
-[[nodiscard]] std::string typeOfOutput(const Body &body, Wire from, const Scope &scope);
+/// Type of a node's output; empty: not known. Circles are followed once. Of literals alone there is
+/// none unless `guess`: DINT or REAL.
+[[nodiscard]] std::string typeOfOutput(const Body &body, Wire from, const Scope &scope, bool guess);
 
 } // namespace stc::import::networks
 

@@ -1,5 +1,6 @@
 // Drawn bodies of PLCopen XML.
 #include "compiler/import/networks/plcopen_networks.hpp"
+#include "compiler/import/networks/print.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,9 +25,12 @@ Translation translate(const std::string &body, const std::string &pou = "PROGRAM
                 "VAR_OUTPUT rest : INT; END_VAR END_FUNCTION\n");
   scope.enter(pou + " P VAR a, b, c, d, x, y, z : BOOL; n, m, k : INT; tm : TON; own : Own;\n"
                     "t : TIME; END_VAR");
-  return translatedPlcOpenBody(
-      document.child("body"),
-      [](const pugi::xml_node &node) { return static_cast<size_t>(node.offset_debug()); }, scope);
+  Translation result;
+  const LineOf offset = [](const pugi::xml_node &node) {
+    return static_cast<size_t>(node.offset_debug());
+  };
+  Body read = readPlcOpenBody(document.child("body"), offset, result.problems);
+  return result.ok() ? translated(std::move(read), scope) : result;
 }
 
 std::string wire(const std::string &id, const std::string &pin = "") {
