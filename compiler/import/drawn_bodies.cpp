@@ -125,9 +125,9 @@ private:
                    fmt::format("{}{{error 'body not imported: {}'}}", indent, drawn.kind));
       return;
     }
-    model_.changed.push_back({drawn.origin, drawn.object,
-                              fmt::format("its body was drawn ({}): translated into ST",
-                                          drawn.kind)});
+    model_.changed.push_back(
+        {drawn.origin, drawn.object,
+         fmt::format("its body was drawn ({}): translated into ST", drawn.kind)});
     std::string statements = indented(result.statements, indent);
     if (!statements.empty()) // the mark's own line ends with \n
       statements.pop_back();

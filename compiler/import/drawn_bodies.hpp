@@ -1,7 +1,7 @@
 #ifndef STRIDE_COMPILER_IMPORT_DRAWN_BODIES_HPP
 #define STRIDE_COMPILER_IMPORT_DRAWN_BODIES_HPP
-// Bodies that are drawn (LD, FBD, CFC): readers leave a mark, and when all files are read, statements
-// take its place. What the blocks around declare is known only then.
+// Bodies that are drawn (LD, FBD, CFC): readers leave a mark, and when all files are read,
+// statements take its place. What the blocks around declare is known only then.
 
 #include "compiler/import/model.hpp"
 
@@ -23,9 +23,9 @@ using DrawnTranslator = std::function<networks::Translation(const networks::Scop
                                         std::string kind, DrawnTranslator translate,
                                         KeptText kept = {});
 
-/// Puts statements in the place of all marks; variables that they need are added to the POU's. Where
-/// there are none, `{error …}` stands there, so that nothing is lost in silence. `libraries` are
-/// texts with the declarations of libraries' blocks.
+/// Puts statements in the place of all marks; variables that they need are added to the POU's.
+/// Where there are none, `{error …}` stands there, so that nothing is lost in silence. `libraries`
+/// are texts with the declarations of libraries' blocks.
 void translateDrawnBodies(Model &model, std::span<const std::string_view> libraries);
 
 } // namespace stc::import

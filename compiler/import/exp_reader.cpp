@@ -260,12 +260,11 @@ private:
       lines.push_back({body[i], begin + i + 1});
     std::string_view kind = trimmed(body.front());
     kind = kind.substr(1, kind.find("_BODY") - 1);
-    return markDrawnBody(
-        model_, originOf(begin), object, std::string(kind),
-        [lines = std::move(lines)](const networks::Scope &scope) {
-          return networks::translatedExpBody(lines, scope);
-        },
-        {keptName(fmt::format("{}_{}", object, begin + 1)), joined(body)});
+    return markDrawnBody(model_, originOf(begin), object, std::string(kind),
+                         [lines = std::move(lines)](const networks::Scope &scope) {
+                           return networks::translatedExpBody(lines, scope);
+                         },
+                         {keptName(fmt::format("{}_{}", object, begin + 1)), joined(body)});
   }
 
   void addPou(size_t begin, const std::string &object, const std::vector<std::string> &content) {

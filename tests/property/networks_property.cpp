@@ -18,7 +18,8 @@ namespace {
 using Store = std::map<std::string, bool>; ///< variables and members of instances
 
 /// What the blocks of the standard library do.
-void callBlock(Store &store, const std::string &name, const std::string &type, bool first, bool second) {
+void callBlock(Store &store, const std::string &name, const std::string &type, bool first,
+               bool second) {
   bool &memory = store[name + ".M"];
   if (type == "R_TRIG") {
     store[name + ".Q"] = first && !memory;
@@ -49,7 +50,9 @@ public:
 
   void run(Store &store) {
     store_ = &store;
+    size_t steps = 0;
     for (size_t at = 0; at < lines_.size();) {
+      RC_ASSERT(++steps < 10000);
       const std::string &line = lines_[at++];
       if (line == "RETURN;")
         return;
@@ -70,8 +73,8 @@ private:
   }
 
   size_t afterIf(size_t at) const {
-    for (size_t depth = 1; depth != 0; ++at)
-      depth += lines_[at].starts_with("IF ") ? 1U : lines_[at] == "END_IF" ? -1U : 0U;
+    for (int depth = 1; depth != 0; ++at)
+      depth += lines_.at(at).starts_with("IF ") ? 1 : lines_.at(at) == "END_IF" ? -1 : 0;
     return at;
   }
 
@@ -201,13 +204,12 @@ public:
       if (node.kind == NodeKind::Return && input(node, 0, store))
         return;
       if (node.kind == NodeKind::Jump && input(node, 0, store))
-        at = static_cast<size_t>(
-            std::find_if(order.begin(), order.end(),
-                         [&](NodeIndex i) {
-                           return body_.nodes[i].kind == NodeKind::Label &&
-                                  body_.nodes[i].text == node.text;
-                         }) -
-            order.begin());
+        at = static_cast<size_t>(std::find_if(order.begin(), order.end(),
+                                              [&](NodeIndex i) {
+                                                return body_.nodes[i].kind == NodeKind::Label &&
+                                                       body_.nodes[i].text == node.text;
+                                              }) -
+                                 order.begin());
       else
         execute(static_cast<NodeIndex>(&node - body_.nodes.data()), store);
     }
@@ -288,8 +290,8 @@ private:
       const bool first = input(node, 0, store);
       const bool second = node.inputs.size() > 1 && input(node, 1, store);
       callBlock(store, node.text, node.type, first, second);
-      out[0] = store[node.text + (node.type == "SR" ? ".Q1" : ".Q")] !=
-               node.outputs.front().negated;
+      out[0] =
+          store[node.text + (node.type == "SR" ? ".Q1" : ".Q")] != node.outputs.front().negated;
     }
   }
 
@@ -297,7 +299,7 @@ private:
     bool value = node.text == "AND";
     for (size_t i = 0; i < node.inputs.size(); ++i) {
       const bool each = input(node, i, store);
-      value = node.text == "AND"  ? value && each
+      value = node.text == "AND"   ? value && each
               : node.text == "XOR" ? value != each
                                    : value || each;
     }
@@ -361,7 +363,9 @@ template <typename Source> Node someNode(Choices &choices, Source source, size_t
     node.kind = NodeKind::Call;
     const size_t which = choices.below(3);
     node.type = which == 0 ? "R_TRIG" : which == 1 ? "F_TRIG" : "SR";
-    node.text = (which == 0 ? "rise" : which == 1 ? "fall" : "latch") +
+    node.text = (which == 0   ? "rise"
+                 : which == 1 ? "fall"
+                              : "latch") +
                 std::to_string(choices.below(kBlocks));
     node.outputs.front().name = which == 2 ? "Q1" : "Q";
     node.inputs.push_back(pinFrom(source(), choices));
@@ -377,8 +381,8 @@ template <typename Source> Node someNode(Choices &choices, Source source, size_t
     node.text = variable(number + choices.below(kVariables));
     node.negated = choices.oneIn(3);
     node.edge = someEdge(choices);
-    node.storage = choices.oneIn(3) ? (choices.oneIn(2) ? Storage::Set : Storage::Reset)
-                                    : Storage::None;
+    node.storage =
+        choices.oneIn(3) ? (choices.oneIn(2) ? Storage::Set : Storage::Reset) : Storage::None;
     node.inputs.push_back(pinFrom(source(), choices));
     return node;
   }
@@ -426,7 +430,8 @@ Body someChart(Choices choices) {
   std::vector<NodeIndex> boxes;
   std::vector<NodeIndex> ordered;
   for (size_t i = 0; i < count; ++i) {
-    Node node = someNode(choices, [] { return NodeIndex{0}; }, i);
+    Node node = someNode(
+        choices, [] { return NodeIndex{0}; }, i);
     const bool box = node.kind != NodeKind::Output;
     if (node.kind == NodeKind::Call) // of its own: others would change what it gives
       node.text = node.text.substr(0, node.text.size() - 1) + std::to_string(kBlocks + i);
@@ -435,7 +440,8 @@ Body someChart(Choices choices) {
       boxes.push_back(ordered.back());
   }
   if (choices.oneIn(2)) {
-    for (const NodeKind kind : {NodeKind::Jump, choices.oneIn(3) ? NodeKind::Return : NodeKind::Jump}) {
+    for (const NodeKind kind :
+         {NodeKind::Jump, choices.oneIn(3) ? NodeKind::Return : NodeKind::Jump}) {
       Node node;
       node.kind = kind;
       node.text = "skip";
@@ -450,8 +456,8 @@ Body someChart(Choices choices) {
     size_t last = 0;
     for (size_t i = 0; i < ordered.size(); ++i)
       last = body.nodes[ordered[i]].kind == NodeKind::Jump ? i : last;
-    ordered.insert(ordered.begin() + static_cast<ptrdiff_t>(
-                                         last + 1 + choices.below(ordered.size() - last)),
+    ordered.insert(ordered.begin() +
+                       static_cast<ptrdiff_t>(last + 1 + choices.below(ordered.size() - last)),
                    add(body, std::move(label)));
   }
   for (size_t i = 0; i < ordered.size(); ++i)
@@ -459,7 +465,7 @@ Body someChart(Choices choices) {
   for (const NodeIndex index : ordered)
     for (size_t pin = 0; pin < body.nodes[index].inputs.size(); ++pin) {
       const NodeIndex from = boxes.empty() || choices.oneIn(3) ? someInput(body, choices)
-                                                              : boxes[choices.below(boxes.size())];
+                                                               : boxes[choices.below(boxes.size())];
       body.nodes[index].inputs[pin].wires = {{from, 0}};
     }
   return body;
@@ -468,7 +474,9 @@ Body someChart(Choices choices) {
 /// Contacts with branches, and coils.
 Body someLadder(Choices choices) {
   Body body = emptyBody(Sequence::Document);
-  std::vector<NodeIndex> sources = {add(body, Node{.kind = NodeKind::Rail})};
+  Node rail;
+  rail.kind = NodeKind::Rail;
+  std::vector<NodeIndex> sources = {add(body, std::move(rail))};
   const size_t count = 2 + choices.below(14);
   for (size_t i = 0; i < count; ++i) {
     Node node;

@@ -18,9 +18,9 @@ using LineOf = std::function<size_t(const pugi::xml_node &)>;
 /// addData beside an empty `ST`. Empty: none.
 [[nodiscard]] pugi::xml_node drawingIn(const pugi::xml_node &body);
 
-/// Reads it; translated() makes Structured Text of it. Order: `executionOrderId` where there is one,
-/// networks and outputs as in the file where CODESYS marks networks, else outputs from the top to
-/// the bottom and from the left to the right. Elements that are not known are problems.
+/// Reads it; translated() makes Structured Text of it. Order: `executionOrderId` where there is
+/// one, networks and outputs as in the file where CODESYS marks networks, else outputs from the top
+/// to the bottom and from the left to the right. Elements that are not known are problems.
 [[nodiscard]] Body readPlcOpenBody(const pugi::xml_node &body, const LineOf &lineOf,
                                    std::vector<Problem> &problems);
 

@@ -459,8 +459,7 @@ void adopt(Body &body, const Scope &scope) {
     if (node.kind != NodeKind::Call)
       continue;
     for (InPin &pin : node.inputs)
-      pin.enable =
-          pin.enable && (pin.name.empty() || !declares(*declared, declared->inputs, "EN"));
+      pin.enable = pin.enable && (pin.name.empty() || !declares(*declared, declared->inputs, "EN"));
     for (OutPin &pin : node.outputs)
       pin.enable =
           pin.enable && (pin.name.empty() || !declares(*declared, declared->outputs, "ENO"));

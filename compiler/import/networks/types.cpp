@@ -15,6 +15,8 @@ namespace {
 /// Literals without a type take that of what they meet.
 constexpr std::string_view kAnyInteger = "an integer";
 constexpr std::string_view kAnyReal = "a real";
+/// AND, OR, XOR, NOT of nothing that is known.
+constexpr std::string_view kAnyBit = "a bit";
 
 /// Numeric types from the narrowest to the widest.
 constexpr std::array<std::string_view, 17> kRanks = {
@@ -24,9 +26,9 @@ constexpr std::array<std::string_view, 17> kRanks = {
 std::string common(const std::string &a, const std::string &b) {
   if (a.empty() || b.empty() || a == b)
     return a.empty() ? b : a;
-  if (a == kAnyInteger)
+  if (a == kAnyBit || (a == kAnyInteger && b != kAnyBit))
     return b;
-  if (b == kAnyInteger)
+  if (b == kAnyBit || b == kAnyInteger)
     return a;
   const std::string upperA = upperCase(a);
   const std::string upperB = upperCase(b);
@@ -38,7 +40,10 @@ std::string common(const std::string &a, const std::string &b) {
 }
 
 std::string concrete(const std::string &type) {
-  return type == kAnyInteger ? "DINT" : type == kAnyReal ? "REAL" : type;
+  return type == kAnyInteger ? "DINT"
+         : type == kAnyReal  ? "REAL"
+         : type == kAnyBit   ? "BOOL"
+                             : type;
 }
 
 /// Where a function's result has the type of its operands, from which operand on.
@@ -223,8 +228,11 @@ public:
     for (const InPin &each : node.inputs)
       if (!each.enable)
         operands.push_back(&each);
-    return resultOf(node.text, operands.size(), scope_,
-                    [&](size_t i) { return input(*operands[i]); });
+    const std::string result = resultOf(node.text, operands.size(), scope_,
+                                        [&](size_t i) { return input(*operands[i]); });
+    const std::string upper = upperCase(node.text);
+    const bool bits = upper == "AND" || upper == "OR" || upper == "XOR" || upper == "NOT";
+    return result.empty() && bits ? std::string(kAnyBit) : result;
   }
 
 private:

@@ -26,7 +26,8 @@ Model read(std::string_view text) {
 }
 
 constexpr std::string_view kDiagram =
-    "_FBD_BODY\n_NETWORKS : 1\n_NETWORK\n\n_COMMENT\n'Wait'\n_END_COMMENT\n_ASSIGN\n_FUNCTIONBLOCK\n"
+    "_FBD_BODY\n_NETWORKS : "
+    "1\n_NETWORK\n\n_COMMENT\n'Wait'\n_END_COMMENT\n_ASSIGN\n_FUNCTIONBLOCK\n"
     "wait\n_BOX_EXPR : 2\n_OPERAND\n_EXPRESSION\n_POSITIV\ngo\n_OPERAND\n_EXPRESSION\n_POSITIV\n"
     "T#2s\n_EXPRESSION\n_POSITIV\nTON\n_OUTPUTS : 0\n_EXPRESSION\n_POSITIV\n_OUTPUTS : 1\n_OUTPUT\n"
     "_POSITIV\n_NO_SET\ndone\n";
@@ -37,10 +38,9 @@ constexpr std::string_view kLadder =
     "_OUTPUTS : 2\n_OUTPUT\n_POSITIV\n_NO_SET\ndone\n_OUTPUT\n_POSITIV\n_SET\ngo\n";
 
 TEST(DrawnBodies, statementsStandWhereTheDrawingStood) {
-  const Model model =
-      read("PROGRAM P\nVAR\n  go, done : BOOL;\n  wait : TON;\nEND_VAR\n"
-           "(* @END_DECLARATION := '0' *)\n" +
-           std::string(kDiagram) + "END_PROGRAM\n");
+  const Model model = read("PROGRAM P\nVAR\n  go, done : BOOL;\n  wait : TON;\nEND_VAR\n"
+                           "(* @END_DECLARATION := '0' *)\n" +
+                           std::string(kDiagram) + "END_PROGRAM\n");
   ASSERT_THAT(model.objects, SizeIs(1));
   EXPECT_EQ(model.objects[0].text, "PROGRAM P\nVAR\n  go, done : BOOL;\n  wait : TON;\nEND_VAR\n"
                                    "// Wait\nwait(IN := go, PT := T#2s);\ndone := wait.Q;\n"
@@ -57,20 +57,23 @@ TEST(DrawnBodies, newVariablesAreDeclaredInThePou) {
                                      "VAR\n  rung : BOOL;\nEND_VAR\nrung := go AND NOT stop;\n"
                                      "done := rung;\ngo S= rung;\nEND_PROGRAM\n");
   // An action's are those of its POU, and two bodies do not share a name.
-  const Model action =
-      read("PROGRAM P\n" + variables + std::string(kLadder) + "END_PROGRAM\nACTION Act:\n" +
-           std::string(kLadder) + "END_ACTION\n");
-  EXPECT_EQ(action.objects[0].text,
-            "PROGRAM P\n" + variables +
-                "VAR\n  rung : BOOL;\nEND_VAR\nVAR\n  rung_2 : BOOL;\nEND_VAR\nrung := go AND NOT stop;\n"
-                "done := rung;\ngo S= rung;\n\nACTION Act:\nrung_2 := go AND NOT stop;\n"
-                "done := rung_2;\ngo S= rung_2;\nEND_ACTION\nEND_PROGRAM\n");
-  const Model bare = read("PROGRAM P\nEND_PROGRAM\nACTION Act:\n" + std::string(kLadder) + "END_ACTION\n");
-  EXPECT_THAT(bare.objects[0].text, HasSubstr("PROGRAM P\nVAR\n  rung : BOOL;\nEND_VAR\n\nACTION Act:\n"));
+  const Model action = read("PROGRAM P\n" + variables + std::string(kLadder) +
+                            "END_PROGRAM\nACTION Act:\n" + std::string(kLadder) + "END_ACTION\n");
+  EXPECT_EQ(
+      action.objects[0].text,
+      "PROGRAM P\n" + variables +
+          "VAR\n  rung : BOOL;\nEND_VAR\nVAR\n  rung_2 : BOOL;\nEND_VAR\nrung := go AND NOT stop;\n"
+          "done := rung;\ngo S= rung;\n\nACTION Act:\nrung_2 := go AND NOT stop;\n"
+          "done := rung_2;\ngo S= rung_2;\nEND_ACTION\nEND_PROGRAM\n");
+  const Model bare =
+      read("PROGRAM P\nEND_PROGRAM\nACTION Act:\n" + std::string(kLadder) + "END_ACTION\n");
+  EXPECT_THAT(bare.objects[0].text,
+              HasSubstr("PROGRAM P\nVAR\n  rung : BOOL;\nEND_VAR\n\nACTION Act:\n"));
 }
 
 TEST(DrawnBodies, aBodyThatCannotBeTranslatedIsAnErrorOfTheCompiler) {
-  const Model model = read("PROGRAM P\n_FBD_BODY\n_NETWORKS : 1\n_NETWORK\n_MYSTERY\nEND_PROGRAM\n");
+  const Model model =
+      read("PROGRAM P\n_FBD_BODY\n_NETWORKS : 1\n_NETWORK\n_MYSTERY\nEND_PROGRAM\n");
   EXPECT_EQ(model.objects[0].text, "PROGRAM P\n{error 'body not imported: FBD'}\nEND_PROGRAM\n");
   ASSERT_THAT(model.leftOut, SizeIs(1));
   EXPECT_EQ(model.leftOut[0].origin.line, 5U);

@@ -102,7 +102,8 @@ TEST(ExpReader, drawnBodiesLeaveAMark) {
   ASSERT_THAT(model.drawn, SizeIs(1));
   EXPECT_EQ(model.drawn[0].kind, "LD");
   EXPECT_EQ(model.drawn[0].origin.line, 4U);
-  EXPECT_EQ(model.objects[0].text, "PROGRAM P\nVAR\nEND_VAR\n" + model.drawn[0].mark + "\nEND_PROGRAM\n");
+  EXPECT_EQ(model.objects[0].text,
+            "PROGRAM P\nVAR\nEND_VAR\n" + model.drawn[0].mark + "\nEND_PROGRAM\n");
 }
 
 TEST(ExpReader, unknownSectionsAreLeftOutAsAWhole) {
