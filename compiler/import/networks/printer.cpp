@@ -261,23 +261,23 @@ void Values::set(Wire from, Expression value, size_t further) {
   if (kept != kept_.end()) {
     beforeWriting({stride::common::lowerCase(kept->second)});
     writer_.line(fmt::format("{} := {};", kept->second, printed(value)));
-    values_[portOf(from)] = {textOf(kept->second), uses};
+    values_[portOf(from)] = {textOf(kept->second), uses, true};
     return;
   }
   const bool store = mustBeStored(from, value, uses);
-  const auto place = values_.insert_or_assign(portOf(from), Value{std::move(value), uses}).first;
+  const auto place = values_.insert_or_assign(portOf(from), Value{std::move(value), uses, false}).first;
   if (store)
     this->store(place->first, place->second);
 }
 
-void Values::setKept(Wire from) { values_[portOf(from)] = {textOf(keptName(from)), readers(from)}; }
+void Values::setKept(Wire from) { values_[portOf(from)] = {textOf(keptName(from)), readers(from), true}; }
 
 void Values::setVariable(Wire from, const Expression &value, const std::string &type) {
   if (type.empty())
     result_.problems.push_back(
         {body_.nodes[from.node].line,
          fmt::format("the type of what `{}` gives is not known", body_.nodes[from.node].text)});
-  values_[portOf(from)] = {stored(wishFor(from), value, type), readers(from)};
+  values_[portOf(from)] = {stored(wishFor(from), value, type), readers(from), true};
 }
 
 /// Assigns the value to a variable of its own.
@@ -292,6 +292,7 @@ bool Values::store(Port port, Value &value) {
     return false;
   }
   value.expression = stored(wishFor({port.first, port.second}), value.expression, type);
+  value.stored = true;
   return true;
 }
 
@@ -308,8 +309,7 @@ void Values::beforeWriting(const std::set<std::string> &written) {
 void Values::storeAll() {
   for (auto &[port, value] : values_)
     if (value.uses != 0 && body_.nodes[port.first].kind != NodeKind::Call &&
-        !isTruth(value.expression) &&
-        !(value.expression.kind == Expression::Kind::Text && kept_.contains(port)))
+        !isTruth(value.expression) && !value.stored)
       store(port, value);
 }
 

@@ -72,6 +72,7 @@ private:
   struct Value {
     Expression expression;
     size_t uses = 0;
+    bool stored = false; ///< in a variable of its own
   };
   [[nodiscard]] static Port portOf(Wire wire) { return {wire.node, wire.pin}; }
   [[nodiscard]] Expression wireValue(Wire wire);
