@@ -40,6 +40,7 @@ struct Task {
   std::string event;    ///< BOOL expression; empty: none
   std::vector<std::string> programs;
   Origin origin;
+  std::string watchdog{}; ///< duration; empty: none
 };
 
 /// A library that the project refers to.
