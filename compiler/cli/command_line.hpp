@@ -32,6 +32,7 @@ struct Invocation {
   TestOptions tests;
   FormatOptions formatting;
   PlotOptions plot;
+  ExportOptions exporting;
   CamOptions cams;
   CncOptions cnc;
   CanOptions can;
@@ -50,6 +51,8 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build);
 void declareRuns(CLI::App &app, Invocation &call);
 /// stride completion
 void declareCompletion(CLI::App &app, Invocation &call);
+/// The commands below `stride export`.
+void declareExports(CLI::App &app, Invocation &call);
 /// The commands below `stride library`.
 void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.

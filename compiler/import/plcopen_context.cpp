@@ -239,6 +239,8 @@ std::string documentationLines(const Node &node, const std::string &indent) {
   return commentLines(linesOf(child(node, "documentation")), indent);
 }
 
+bool isInSource(const Node &node) { return !extra(node, "InSource").empty(); }
+
 std::string plainDeclaration(const Node &node) {
   if (const Node plain = extra(node, "InterfaceAsPlainText"))
     return linesOf(plain);

@@ -102,6 +102,9 @@ private:
 /// The declaration as the author has written it (addData interfaceasplaintext); empty: none.
 [[nodiscard]] std::string plainDeclaration(const Node &node);
 
+/// `stride export plcopen` keeps the file that the element comes from as a whole.
+[[nodiscard]] bool isInSource(const Node &node);
+
 // ---- plcopen_types.cpp
 
 /// A type: `node` has one element, which names or describes it.

@@ -205,6 +205,8 @@ public:
 
   /// Makes a CONFIGURATION or tasks of what has been read.
   void finish() {
+    if (inSource_)
+      return;
     const bool whole = needsConfiguration(resources_) || !lists_.empty();
     if (!whole) {
       for (Resource &resource : resources_)
@@ -228,7 +230,9 @@ private:
     const std::string name = attribute(node, "name");
     context_.leaveOutUnknown(
         node, {"resource", "globalVars", "accessVars", "configVars", "documentation"});
-    context_.leaveOutUnknownExtras(node, {"Device", "configurations", "ExplicitConnector"});
+    context_.leaveOutUnknownExtras(node,
+                                   {"Device", "configurations", "ExplicitConnector", "InSource"});
+    inSource_ = inSource_ || isInSource(node);
     if (!first_ || (children(node, "resource").size() > 0 && name_.empty())) {
       first_ = node;
       name_ = isName(name) ? name : "Config";
@@ -251,8 +255,9 @@ private:
     if (!isName(resource.name))
       resource.name = fmt::format("Resource{}", resources_.size() + 1);
     context_.leaveOutUnknown(node, {"task", "globalVars", "pouInstance", "documentation"});
-    for (const Node &each : children(node, "task"))
-      resource.tasks.push_back(taskOf(context_, each));
+    if (!inSource_)
+      for (const Node &each : children(node, "task"))
+        resource.tasks.push_back(taskOf(context_, each));
     for (const Node &each : children(node, "globalVars"))
       readGlobals(context_, each, "Global_Variables");
     for (const Node &each : children(node, "pouInstance"))
@@ -275,6 +280,7 @@ private:
   Context &context_;
   std::vector<Resource> resources_;
   std::string lists_;
+  bool inSource_ = false; ///< the file has the CONFIGURATION as text
   std::string name_;
   Node first_;
 };

@@ -103,6 +103,8 @@ std::string sectionsText(Context &context, const Node &interface, const std::str
 }
 
 void readGlobals(Context &context, const Node &list, const std::string &fallbackName) {
+  if (isInSource(list))
+    return;
   std::string name = attribute(list, "name");
   if (!isName(name)) {
     if (!name.empty())

@@ -110,15 +110,9 @@ std::string accessor(Context &context, const Node &node, std::string_view word,
     declarations = plainDeclaration(interface);
   if (declarations.empty())
     declarations = sectionsText(context, interface, owner);
-  // The access specifiers of an accessor stand in its declaration; Stride has those of the
-  // property.
-  if (!modifiersOf(interface).empty())
-    context.changed(node, owner,
-                    fmt::format("its {} has access specifiers of its own; those of the property "
-                                "hold",
-                                word));
   std::string members;
-  return fmt::format("{}\n{}{}END_{}\n", word, declarations,
+  return fmt::format("{}\n{}{}END_{}\n",
+                     trimmed(fmt::format("{} {}", word, modifiersOf(interface))), declarations,
                      bodiesOf(context, node, {}, owner, members), word);
 }
 
@@ -201,22 +195,39 @@ std::string_view pouKeywordOf(std::string_view type) {
   return {};
 }
 
-/// NAMESPACE around a declaration, and USING, as `stride export plcopen` keeps them.
-std::string inNamespace(const Node &node, const std::string &text) {
-  const Node space = extra(node, "Namespace");
-  const std::string name = attribute(space, "name");
-  std::string usings;
-  for (const Node &each : children(space, "Using"))
-    usings += fmt::format("USING {};\n", textOf(each));
-  return name.empty() ? usings + text
-                      : fmt::format("{}NAMESPACE {}\n{}END_NAMESPACE\n", usings, name, text);
+/// The word that the declaration begins with, after comments and pragmas: PROGRAM, CLASS …
+std::string_view firstKeyword(std::string_view declaration) {
+  for (size_t at = 0; at < declaration.size();) {
+    const std::string_view rest = declaration.substr(at);
+    size_t end = 1;
+    if (rest.starts_with("//"))
+      end = rest.find('\n');
+    else if (rest.starts_with("(*"))
+      end = rest.find("*)");
+    else if (rest.starts_with("{"))
+      end = rest.find('}');
+    else if (const std::string_view word = firstWord(rest.substr(0, rest.find('\n')));
+             !word.empty() && word.front() == rest.front())
+      return word;
+    at = end == std::string_view::npos ? declaration.size() : at + end;
+  }
+  return {};
+}
+
+/// What ends the declaration: the file's word for the kind says less than the author's text.
+std::string_view closingKeyword(std::string_view declaration, std::string_view keyword) {
+  const std::string_view first = firstKeyword(declaration);
+  for (const PouKind &each : kPouKinds)
+    if (sameName(each.keyword, first))
+      return each.keyword;
+  return keyword;
 }
 
 } // namespace
 
 void readPou(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "POU");
-  if (name.empty())
+  if (name.empty() || isInSource(node))
     return;
   std::string_view keyword = pouKeywordOf(attribute(node, "pouType"));
   if (keyword.empty()) {
@@ -227,32 +238,32 @@ void readPou(Context &context, const Node &node) {
   }
   context.leaveOutUnknown(node, {"interface", "body", "actions", "transitions", "documentation",
                                  "InterfaceAsPlainText"});
-  context.leaveOutUnknownExtras(
-      node, {"Method", "Property", "InterfaceAsPlainText", "SFCSettings", "Namespace"});
+  context.leaveOutUnknownExtras(node,
+                                {"Method", "Property", "InterfaceAsPlainText", "SFCSettings"});
   reportFlags(context, node, name);
   const std::string declaration = declarationOf(context, node, keyword, name, name);
   std::string members;
   const std::string body = bodiesOf(context, node, node, name, members);
   members += actionsOf(context, node, name) + membersOf(context, node, name);
-  const std::string text = fmt::format("{}{}{}{}END_{}\n", declaration, body.empty() ? "" : "\n",
-                                       body, members, keyword);
-  context.add(ObjectKind::Pou, node, name, inNamespace(node, text));
+  context.add(ObjectKind::Pou, node, name,
+              fmt::format("{}{}{}{}END_{}\n", declaration, body.empty() ? "" : "\n", body, members,
+                          closingKeyword(declaration, keyword)));
 }
 
 void readInterface(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "interface");
-  if (name.empty())
+  if (name.empty() || isInSource(node))
     return;
   context.leaveOutUnknown(
       node, {"Methods", "Properties", "documentation", "InterfaceAsPlainText", "interface"});
-  context.leaveOutUnknownExtras(node, {"Inheritance", "Attributes", "InterfaceAsPlainText",
-                                       "Method", "Property", "Namespace"});
+  context.leaveOutUnknownExtras(
+      node, {"Inheritance", "Attributes", "InterfaceAsPlainText", "Method", "Property"});
   std::string text = plainDeclaration(node);
   if (text.empty())
     text = fmt::format("{}{}INTERFACE {}{}\n", documentationLines(node), attributeLines(node), name,
                        inheritanceOf(node));
   text += membersOf(context, node, name) + "END_INTERFACE\n";
-  context.add(ObjectKind::Pou, node, name, inNamespace(node, text));
+  context.add(ObjectKind::Pou, node, name, text);
 }
 
 } // namespace stc::import::plcopen

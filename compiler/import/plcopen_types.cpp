@@ -190,12 +190,12 @@ std::string variableLines(Context &context, const Node &list, const std::string 
 
 void readDataType(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "type");
-  if (name.empty())
+  if (name.empty() || isInSource(node))
     return;
   context.leaveOutUnknown(node,
                           {"baseType", "initialValue", "documentation", "InterfaceAsPlainText"});
-  context.leaveOutUnknownExtras(node, {"Attributes", "Inheritance", "EnumValueDocumentation",
-                                       "InterfaceAsPlainText", "Source"});
+  context.leaveOutUnknownExtras(
+      node, {"Attributes", "Inheritance", "EnumValueDocumentation", "InterfaceAsPlainText"});
   if (const std::string plain = plainDeclaration(node); !plain.empty())
     return context.add(ObjectKind::Type, node, name, plain);
   const Node base = child(node, "baseType");
@@ -218,7 +218,7 @@ void readDataType(Context &context, const Node &node) {
 
 void readUnion(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "union");
-  if (name.empty())
+  if (name.empty() || isInSource(node))
     return;
   context.leaveOutUnknown(node, {"variable", "documentation", "InterfaceAsPlainText"});
   context.leaveOutUnknownExtras(node, {"Attributes", "InterfaceAsPlainText"});
