@@ -5,6 +5,7 @@
 
 #include "compiler/cli/can_command.hpp"
 #include "compiler/cli/commands.hpp"
+#include "compiler/cli/import_command.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -36,6 +37,7 @@ struct Invocation {
   CamOptions cams;
   CncOptions cnc;
   CanOptions can;
+  ImportOptions import;
   std::string code;
   bool listCodes = false;
   std::string topic;
@@ -51,6 +53,8 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build);
 void declareRuns(CLI::App &app, Invocation &call);
 /// stride completion
 void declareCompletion(CLI::App &app, Invocation &call);
+/// stride import
+void declareImports(CLI::App &app, Invocation &call);
 /// The commands below `stride export`.
 void declareExports(CLI::App &app, Invocation &call);
 /// The commands below `stride library`.
