@@ -41,7 +41,8 @@ LibraryReference libraryOf(Context &context, const Node &node) {
   std::string_view version = std::string_view(name).substr(std::min(comma + 1, name.size()));
   version = trimmed(version.substr(0, version.find('(')));
   return {std::string(trimmed(std::string_view(name).substr(0, comma))), std::string(version),
-          context.originOf(node)};
+          context.originOf(node),
+          {}};
 }
 
 void readTypes(Context &context, const Node &types) {
