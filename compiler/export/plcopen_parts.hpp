@@ -70,7 +70,7 @@ private:
   void property(Node parent, const ast::PropertyDecl &decl, const DeclarationTexts &texts) const;
   void accessor(Node property, const char *name, const ast::PouDecl *decl,
                 const ast::PropertyDecl &owner, const DeclarationTexts &texts) const;
-  void interfaceOf(Node parent, const ast::PouDecl &decl, const DeclarationText &text) const;
+  void interfaceOf(Node parent, const ast::PouDecl &decl) const;
   bool composite(Node parent, const ast::AggregateExpr &value) const;
   void enumeration(Node parent, const ast::EnumTypeExpr &type) const;
 

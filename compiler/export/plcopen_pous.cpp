@@ -105,17 +105,18 @@ std::string plainOf(const DeclarationText &text) {
   return trimmedLines(text.leading) + trimmedLines(text.declaration);
 }
 
-/// `GET PRIVATE` without its words: the declarations of the accessor.
-std::string withoutHead(std::string_view declaration, Access access) {
-  std::string_view rest = declaration.substr(std::min<size_t>(3, declaration.size()));
-  if (access != Access::None) {
-    const size_t begin = std::min(rest.find_first_not_of(" \t\r\n"), rest.size());
-    const size_t end = std::min(rest.find_first_of(" \t\r\n;", begin), rest.size());
-    const std::string word = lowerCase(rest.substr(begin, end - begin));
-    if (word == "public" || word == "private" || word == "protected" || word == "internal")
-      rest.remove_prefix(end);
-  }
-  return trimmedLines(rest);
+/// `PRIVATE …`, as it stands after GET, without this word.
+std::string_view withoutAccess(std::string_view text, Access access) {
+  const size_t begin = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const size_t end = std::min(text.find_first_of(" \t\r\n;:=.([^", begin), text.size());
+  const std::string word = lowerCase(text.substr(begin, end - begin));
+  const size_t next = std::min(text.find_first_not_of(" \t\r\n", end), text.size());
+  // A variable may have such a name.
+  const bool variable =
+      next < text.size() && std::string_view(":=.([^").find(text[next]) != std::string_view::npos;
+  const bool is =
+      word == "public" || word == "private" || word == "protected" || word == "internal";
+  return access != Access::None && is && !variable ? text.substr(end) : text;
 }
 
 } // namespace
@@ -145,7 +146,7 @@ void Writer::variables(Node interface, std::span<VarDecl *const> variables) cons
   }
 }
 
-void Writer::interfaceOf(Node parent, const PouDecl &decl, const DeclarationText &text) const {
+void Writer::interfaceOf(Node parent, const PouDecl &decl) const {
   Node interface = parent.append_child("interface");
   if (decl.returnType != nullptr)
     type(interface.append_child("returnType"), decl.returnType);
@@ -154,14 +155,13 @@ void Writer::interfaceOf(Node parent, const PouDecl &decl, const DeclarationText
   addModifiers(interface, decl.access, decl.modifiers);
   addAttributes(interface, decl.attributes);
   addDocumentation(interface, decl.doc);
-  (void)text;
 }
 
 void Writer::method(Node parent, const PouDecl &decl, const DeclarationTexts &texts) const {
   const DeclarationText &text = textFor(texts, decl);
   Node node = parent.append_child("Method");
   node.append_attribute("name") = std::string(decl.name.text).c_str();
-  interfaceOf(node, decl, text);
+  interfaceOf(node, decl);
   addBody(node, text);
   addPlainDeclaration(node, plainOf(text));
 }
@@ -179,9 +179,15 @@ void Writer::accessor(Node property, const char *name, const PouDecl *decl,
       std::span<VarDecl *const>(decl->variables).subspan(std::min(hidden, decl->variables.size())));
   if (decl->access != owner.access)
     addModifiers(interface, decl->access, 0);
+  // Without the word GET or SET; without variables the specifier stands in the body.
+  const std::string_view head =
+      std::string_view(text.declaration).substr(std::min<size_t>(3, text.declaration.size()));
+  const std::string declarations = trimmedLines(withoutAccess(head, decl->access));
   DeclarationText own = text;
+  if (trimmedLines(head).empty())
+    own.body = withoutAccess(text.body, decl->access);
   addBody(node, own);
-  addPlainDeclaration(node, withoutHead(text.declaration, decl->access));
+  addPlainDeclaration(node, declarations);
 }
 
 void Writer::property(Node parent, const PropertyDecl &decl, const DeclarationTexts &texts) const {
@@ -212,7 +218,7 @@ void Writer::pou(Node pous, const PouDecl &decl, const DeclarationTexts &texts, 
   Node node = pous.append_child("pou");
   node.append_attribute("name") = std::string(decl.name.text).c_str();
   node.append_attribute("pouType") = pouTypeOf(decl.kind);
-  interfaceOf(node, decl, text);
+  interfaceOf(node, decl);
   if (!decl.actions.empty()) {
     Node actions = node.append_child("actions");
     for (const PouDecl *each : decl.actions) {

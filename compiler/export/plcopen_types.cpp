@@ -191,7 +191,7 @@ void Writer::dataType(Node dataTypes, Node project, const Decl &decl, const Decl
     this->type(node.append_child("baseType"), type);
     initialValue(node, as<AliasDecl>(&decl)->init);
   }
-  if (decl.kind == DeclKind::Structure && !as<StructDecl>(&decl)->base.empty())
+  if (decl.kind == DeclKind::Structure && !isUnion && !as<StructDecl>(&decl)->base.empty())
     addData(node, kCodesys, "datatypeinheritance")
         .append_child("Inheritance")
         .append_child("Extends")

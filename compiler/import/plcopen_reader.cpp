@@ -40,7 +40,8 @@ LibraryReference libraryOf(Context &context, const Node &node) {
   const size_t comma = std::min(name.find(','), name.size());
   std::string_view version = std::string_view(name).substr(std::min(comma + 1, name.size()));
   version = trimmed(version.substr(0, version.find('(')));
-  return {std::string(trimmed(std::string_view(name).substr(0, comma))), std::string(version),
+  return {std::string(trimmed(std::string_view(name).substr(0, comma))),
+          std::string(version),
           context.originOf(node),
           {}};
 }

@@ -221,7 +221,7 @@ void readUnion(Context &context, const Node &node) {
   if (name.empty() || isInSource(node))
     return;
   context.leaveOutUnknown(node, {"variable", "documentation", "InterfaceAsPlainText"});
-  context.leaveOutUnknownExtras(node, {"Attributes", "InterfaceAsPlainText"});
+  context.leaveOutUnknownExtras(node, {"Attributes", "InterfaceAsPlainText", "InSource"});
   if (const std::string plain = plainDeclaration(node); !plain.empty())
     return context.add(ObjectKind::Type, node, name, plain);
   context.add(ObjectKind::Type, node, name,
