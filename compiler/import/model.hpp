@@ -2,6 +2,10 @@
 #define STRIDE_COMPILER_IMPORT_MODEL_HPP
 // What readers of other tools' project files find, whatever the format.
 
+#include "compiler/import/networks/scope.hpp"
+#include "compiler/import/networks/translation.hpp"
+
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,7 +44,7 @@ struct Task {
   std::string event;    ///< BOOL expression; empty: none
   std::vector<std::string> programs;
   Origin origin;
-  std::string watchdog; ///< duration; empty: none
+  std::string watchdog{}; ///< duration; empty: none
 };
 
 /// A library that the project refers to.
@@ -48,13 +52,23 @@ struct LibraryReference {
   std::string name;
   std::string version; ///< empty: not given
   Origin origin;
-  std::vector<std::string> contents; ///< names that it declares; empty: not said
+  std::vector<std::string> contents{}; ///< names that it declares; empty: not said
 };
 
 /// Text of a section that is not imported; it is kept beside the report.
 struct KeptText {
   std::string path; ///< name of its file, without ending
   std::string text;
+};
+
+/// A body that is drawn and waits for all declarations; see drawn_bodies.hpp.
+struct DrawnBody {
+  Origin origin;
+  std::string object; ///< its kind and name, as in the file
+  std::string kind;   ///< `LD`, `FBD` or `CFC`
+  std::string mark;   ///< stands for it in the object's text
+  std::function<networks::Translation(const networks::Scope &)> translate;
+  KeptText kept; ///< where it cannot be translated; empty path: nothing
 };
 
 /// How far a value of another tool's configuration can be trusted.
@@ -83,7 +97,7 @@ struct DriveSetup {
   std::string name; ///< that of its AXIS_REF or SMC_ENCODER_REF
   std::vector<Parameter> parameters;
   Origin origin;
-  std::vector<NumberedParameter> numbered; ///< what a configuration file gives names to
+  std::vector<NumberedParameter> numbered{}; ///< what a configuration file gives names to
 };
 
 /// Drives that one task serves.
@@ -92,8 +106,8 @@ struct DriveGroupSetup {
   std::vector<Parameter> parameters;
   std::vector<DriveSetup> drives;
   Origin origin;
-  std::vector<DriveSetup> encoders;
-  std::vector<NumberedParameter> numbered;
+  std::vector<DriveSetup> encoders{};
+  std::vector<NumberedParameter> numbered{};
 };
 
 /// A bus; always of simulated drives, for other tools' drivers are not ours.
@@ -138,6 +152,7 @@ struct Model {
   std::vector<MovedAddress> addresses;
   std::string addressing; ///< [image] addressing of stride.toml; empty: not said
   std::vector<KeptText> kept;
+  std::vector<DrawnBody> drawn; ///< marks in the objects' texts
   std::vector<Remark> changed;
   std::vector<Remark> leftOut;    ///< losses
   std::vector<Remark> unreadable; ///< files of which nothing was taken
