@@ -1,8 +1,12 @@
 // Bodies of PLCopen XML: text is taken as it is, charts become textual SFC.
+#include "compiler/import/drawn_bodies.hpp"
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/networks/plcopen_networks.hpp"
+#include "compiler/import/networks/print.hpp"
 #include "compiler/import/plcopen_context.hpp"
 
-#include <fmt/format.h>
+#include <utility>
+#include <vector>
 
 namespace stc::import::plcopen {
 
@@ -14,6 +18,21 @@ Node drawing(const Node &body) {
     if (localName(each.element) == "CFC")
       return each.element;
   return {};
+}
+
+/// The mark of a drawing: what the blocks in it declare may stand further on in the file.
+std::string drawnBody(Context &context, const Node &body, const Node &drawn,
+                      const std::string &object) {
+  std::vector<networks::Problem> problems;
+  networks::Body read = networks::readPlcOpenBody(
+      body, [&](const Node &node) { return context.originOf(node).line; }, problems);
+  return markDrawnBody(context.model(), context.originOf(drawn), object,
+                       std::string(localName(drawn)),
+                       [read = std::move(read), problems](const networks::Scope &scope) {
+                         networks::Translation result;
+                         result.problems = problems;
+                         return result.ok() ? networks::translated(read, scope) : result;
+                       });
 }
 
 } // namespace
@@ -37,15 +56,11 @@ std::string bodyText(Context &context, const Node &body, const Node &pou, const 
       text += linesOf(each);
     else if (kind == "SFC")
       text += chartText(context, each, pou, object, members);
-    else if (kind == "FBD" || kind == "LD") {
-      context.leftOut(each, object, fmt::format("its body is drawn ({})", kind));
-      text += errorPragma(kind);
-    }
+    else if (kind == "FBD" || kind == "LD")
+      text += drawnBody(context, body, each, object);
   }
-  if (const Node drawn = drawing(body)) {
-    context.leftOut(drawn, object, "its body is drawn (CFC)");
-    text += errorPragma("CFC");
-  }
+  if (const Node drawn = drawing(body))
+    text += drawnBody(context, body, drawn, object);
   return comment + text;
 }
 
