@@ -107,6 +107,19 @@ struct MovedAddress {
   std::string to;   ///< `%IX0.0`
 };
 
+/// A file that belongs to a project as well: it is read when it exists and has not been read.
+struct FileReference {
+  std::string path; ///< with `/`, from the folder of the file that names it
+  Origin origin;
+};
+
+/// Which drive a variable of the program stands for, where the tool keeps both apart.
+struct AxisLink {
+  std::string variable; ///< `MAIN.Feed`
+  std::string drive;    ///< as DriveSetup::name
+  Origin origin;
+};
+
 /// All files of one import.
 struct Model {
   std::vector<Object> objects;
@@ -115,6 +128,8 @@ struct Model {
   std::vector<BusSetup> buses;
   std::vector<IoChannel> channels;
   std::vector<MovedAddress> addresses;
+  std::vector<FileReference> references;
+  std::vector<AxisLink> axisLinks;
   std::vector<KeptText> kept;
   std::vector<Remark> changed;
   std::vector<Remark> leftOut;    ///< losses

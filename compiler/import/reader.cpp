@@ -1,6 +1,8 @@
 #include "compiler/import/reader.hpp"
 
+#include "compiler/import/codesys_export_reader.hpp"
 #include "compiler/import/exp_reader.hpp"
+#include "compiler/import/twincat_reader.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -25,9 +27,14 @@ bool isExp(std::string_view text) {
   });
 }
 
+constexpr std::string_view kTwinCatFiles =
+    ".tcpou .tcdut .tcgvl .tcio .tctto .plcproj .tsproj .xti .tcvis .tcvmo .tctlo .tcgtlo .tcipo";
+
 // A format is added here.
-constexpr std::array<Format, 1> kFormats = {{
+constexpr std::array<Format, 3> kFormats = {{
     {"CoDeSys V2.3 export", ".exp", isExp, readExp},
+    {"TwinCAT 3", kTwinCatFiles, isTwinCat, readTwinCat},
+    {"CODESYS V3 export", ".export", isCodesysExport, readCodesysExport},
 }};
 
 /// Files of project tools that hold no text to read.
