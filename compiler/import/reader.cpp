@@ -2,6 +2,7 @@
 
 #include "compiler/import/codesys_export_reader.hpp"
 #include "compiler/import/exp_reader.hpp"
+#include "compiler/import/scl_reader.hpp"
 #include "compiler/import/twincat_reader.hpp"
 #include "runtime/common/text.hpp"
 
@@ -31,10 +32,11 @@ constexpr std::string_view kTwinCatFiles =
     ".tcpou .tcdut .tcgvl .tcio .tctto .plcproj .tsproj .xti .tcvis .tcvmo .tctlo .tcgtlo .tcipo";
 
 // A format is added here.
-constexpr std::array<Format, 3> kFormats = {{
+constexpr std::array<Format, 4> kFormats = {{
     {"CoDeSys V2.3 export", ".exp", isExp, readExp},
     {"TwinCAT 3", kTwinCatFiles, isTwinCat, readTwinCat},
     {"CODESYS V3 export", ".export", isCodesysExport, readCodesysExport},
+    {"Siemens SCL", ".scl .udt .db", isScl, readScl},
 }};
 
 /// Files of project tools that hold no text to read.
