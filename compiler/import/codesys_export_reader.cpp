@@ -294,7 +294,7 @@ private:
       version = version.substr(0, version.find(' '));
       if (comma != 0)
         model_.libraries.push_back(
-            {whole.substr(0, comma), std::move(version), {file_, document_.lineOf(item)}});
+            {whole.substr(0, comma), std::move(version), {file_, document_.lineOf(item)}, {}});
     }
   }
 

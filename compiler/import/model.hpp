@@ -40,6 +40,7 @@ struct Task {
   std::string event;    ///< BOOL expression; empty: none
   std::vector<std::string> programs;
   Origin origin;
+  std::string watchdog; ///< duration; empty: none
 };
 
 /// A library that the project refers to.
@@ -47,11 +48,12 @@ struct LibraryReference {
   std::string name;
   std::string version; ///< empty: not given
   Origin origin;
+  std::vector<std::string> contents; ///< names that it declares; empty: not said
 };
 
 /// Text of a section that is not imported; it is kept beside the report.
 struct KeptText {
-  std::string path; ///< relative to the folder of kept texts, with `/`
+  std::string path; ///< name of its file, without ending
   std::string text;
 };
 
@@ -70,11 +72,18 @@ struct Parameter {
   std::string source; ///< where it comes from, for the report; empty: the file itself
 };
 
-/// A drive (an axis).
+/// A parameter of which the file says only the number.
+struct NumberedParameter {
+  int number = 0;
+  std::string value;
+};
+
+/// A drive (an axis), or an encoder.
 struct DriveSetup {
-  std::string name; ///< that of its AXIS_REF
+  std::string name; ///< that of its AXIS_REF or SMC_ENCODER_REF
   std::vector<Parameter> parameters;
   Origin origin;
+  std::vector<NumberedParameter> numbered; ///< what a configuration file gives names to
 };
 
 /// Drives that one task serves.
@@ -83,6 +92,8 @@ struct DriveGroupSetup {
   std::vector<Parameter> parameters;
   std::vector<DriveSetup> drives;
   Origin origin;
+  std::vector<DriveSetup> encoders;
+  std::vector<NumberedParameter> numbered;
 };
 
 /// A bus; always of simulated drives, for other tools' drivers are not ours.
@@ -98,6 +109,12 @@ struct IoChannel {
   std::string address; ///< `%IX0.0`
   std::string type;    ///< `BOOL`
   std::string comment; ///< empty: none
+  Origin origin;
+};
+
+/// A channel of the hardware, named or not: what addresses are counted by.
+struct HardwareChannel {
+  std::string address; ///< as in the file: `%IW0.4.2`
   Origin origin;
 };
 
@@ -122,14 +139,20 @@ struct AxisLink {
 
 /// All files of one import.
 struct Model {
+  size_t files = 0;                         ///< that were read
+  std::vector<std::string> assumedEncoding; ///< those that do not say their encoding
+  std::vector<std::string> notes;           ///< what the user is to look at, a sentence each
   std::vector<Object> objects;
   std::vector<Task> tasks;
   std::vector<LibraryReference> libraries;
   std::vector<BusSetup> buses;
   std::vector<IoChannel> channels;
+  std::vector<HardwareChannel> hardware; ///< in the order of the configuration
   std::vector<MovedAddress> addresses;
+  std::string addressing; ///< [image] addressing of stride.toml; empty: not said
   std::vector<FileReference> references;
   std::vector<AxisLink> axisLinks;
+  std::vector<std::string> named; ///< Stride's libraries that stride.toml must name
   std::vector<KeptText> kept;
   std::vector<Remark> changed;
   std::vector<Remark> leftOut;    ///< losses

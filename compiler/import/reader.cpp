@@ -116,7 +116,7 @@ FormatChoice formatOf(std::string_view file, std::string_view text) {
       if (each.matches(text))
         return {&each, {}, true};
     }
-  if (namesakes == 1 && text.find('\0') == std::string_view::npos)
+  if (namesakes == 1)
     return {byName, {}, true};
   for (const Format &each : kFormats)
     if (each.matches(text))

@@ -179,7 +179,8 @@ void readLinks(const std::string &file, const XmlDocument &document, const pugi:
   for (const pugi::xml_node &link : owner.children("Link")) {
     std::string_view variable = lastOf(link.attribute("VarA").as_string());
     const std::string_view other = link.attribute("VarB").as_string();
-    if (!variable.ends_with(kMember) || !other.ends_with("ToPlc"))
+    // TwinCAT keeps links that it could not restore; RestoreInfo says so.
+    if (!variable.ends_with(kMember) || !other.ends_with("ToPlc") || link.attribute("RestoreInfo"))
       continue;
     variable.remove_suffix(kMember.size());
     model.axisLinks.push_back(
@@ -216,6 +217,14 @@ std::string versionOfLibrary(std::string_view text) {
   return std::string(trimmed(rest.substr(0, rest.find_first_of(",("))));
 }
 
+/// Stride's stand-ins for libraries of TwinCAT are seen in projects that name them.
+void addLibrary(LibraryReference library, Model &model) {
+  for (const std::string_view each : {"Tc2_MC2", "Tc2_System"})
+    if (library.name == each && std::ranges::find(model.named, each) == model.named.end())
+      model.named.emplace_back(each);
+  model.libraries.push_back(std::move(library));
+}
+
 void readProjectItem(const std::string &file, const XmlDocument &document,
                      const pugi::xml_node &item, Model &model) {
   const std::string_view element = item.name();
@@ -226,10 +235,10 @@ void readProjectItem(const std::string &file, const XmlDocument &document,
   else if (element == "Compile")
     model.references.push_back({withSlashes(include), origin});
   else if (element == "PlaceholderReference")
-    model.libraries.push_back(
-        {include, versionOfLibrary(item.child("DefaultResolution").text().as_string()), origin});
+    addLibrary({include, versionOfLibrary(item.child("DefaultResolution").text().as_string()),
+                origin, {}}, model);
   else if (element == "LibraryReference")
-    model.libraries.push_back({nameOfLibrary(include), versionOfLibrary(include), origin});
+    addLibrary({nameOfLibrary(include), versionOfLibrary(include), origin, {}}, model);
 }
 
 } // namespace
