@@ -300,7 +300,7 @@ private:
 
   void addTask(const Entry &entry) {
     Task task;
-    task.name = identifierOf(entry.name);
+    task.name = asIdentifier(entry.name);
     task.origin = originOf(entry);
     task.priority = textAt(entry.object, "Priority");
     const std::string kind = textAt(entry.object, "Kindoftask");

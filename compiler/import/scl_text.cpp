@@ -98,7 +98,7 @@ std::string SclText::plain(const SclToken &token) {
   case SclKind::Quoted:
   case SclKind::Local: {
     const std::string_view name = sclName(token);
-    std::string here = identifierOf(name);
+    std::string here = asIdentifier(name);
     if (here != name)
       changed(token.line, fmt::format("`{}` is called {} here", name, here));
     return here;

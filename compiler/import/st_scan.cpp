@@ -107,7 +107,7 @@ std::string quotedForSt(std::string_view text) {
   return out;
 }
 
-std::string identifierOf(std::string_view name) {
+std::string asIdentifier(std::string_view name) {
   std::string out;
   for (const char c : name) {
     const bool plain = isWordSign(c) && static_cast<unsigned char>(c) < 0x80;

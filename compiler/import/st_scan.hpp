@@ -23,7 +23,7 @@ namespace stc::import {
 /// The text as the inside of a literal '…'.
 [[nodiscard]] std::string quotedForSt(std::string_view text);
 /// Makes an identifier of a name: what cannot stand in one becomes `_`.
-[[nodiscard]] std::string identifierOf(std::string_view name);
+[[nodiscard]] std::string asIdentifier(std::string_view name);
 /// The path with `/` where the file has `\`.
 [[nodiscard]] std::string withSlashes(std::string_view path);
 /// The name of the file without folders and ending.

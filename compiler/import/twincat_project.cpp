@@ -63,7 +63,7 @@ public:
     const std::string given = axis.child("Name").text().as_string();
     const std::string shown = given.empty() || given == "__FILENAME__" ? stemOf(file_) : given;
     DriveSetup drive;
-    drive.name = identifierOf(shown);
+    drive.name = asIdentifier(shown);
     drive.origin = {file_, document_.lineOf(axis)};
     if (drive.name != shown)
       model_.changed.push_back({drive.origin, fmt::format("axis `{}`", shown),
@@ -90,7 +90,10 @@ private:
     BusSetup bus;
     bus.name = kBus;
     bus.origin = origin;
-    bus.groups.push_back({"NC_Axes", {}, {}, origin});
+    DriveGroupSetup group;
+    group.name = "NC_Axes";
+    group.origin = origin;
+    bus.groups.push_back(std::move(group));
     model_.buses.push_back(std::move(bus));
     return model_.buses.back().groups.front();
   }
@@ -184,7 +187,7 @@ void readLinks(const std::string &file, const XmlDocument &document, const pugi:
       continue;
     variable.remove_suffix(kMember.size());
     model.axisLinks.push_back(
-        {std::string(variable), identifierOf(lastOf(axis)), {file, document.lineOf(link)}});
+        {std::string(variable), asIdentifier(lastOf(axis)), {file, document.lineOf(link)}});
   }
 }
 

@@ -157,7 +157,7 @@ private:
   /// CycleTime is in microseconds: the file itself says so in a comment.
   void addTask(const pugi::xml_node &node) {
     Task task;
-    task.name = identifierOf(nameOf(node));
+    task.name = asIdentifier(nameOf(node));
     task.origin = originOf(node);
     task.priority = node.child("Priority").text().as_string();
     const std::string_view cycle = node.child("CycleTime").text().as_string();

@@ -26,12 +26,12 @@ TEST(StScan, StepsOverTexts) {
 }
 
 TEST(StScan, MakesIdentifiers) {
-  EXPECT_EQ(identifierOf("Axis 1"), "Axis_1");
-  EXPECT_EQ(identifierOf("1st  axis!"), "_1st_axis");
-  EXPECT_EQ(identifierOf("a__b"), "a_b");
-  EXPECT_EQ(identifierOf("x "), "x");
-  EXPECT_EQ(identifierOf(""), "_");
-  EXPECT_EQ(identifierOf("_"), "_");
+  EXPECT_EQ(asIdentifier("Axis 1"), "Axis_1");
+  EXPECT_EQ(asIdentifier("1st  axis!"), "_1st_axis");
+  EXPECT_EQ(asIdentifier("a__b"), "a_b");
+  EXPECT_EQ(asIdentifier("x "), "x");
+  EXPECT_EQ(asIdentifier(""), "_");
+  EXPECT_EQ(asIdentifier("_"), "_");
 }
 
 TEST(StScan, ReadsPaths) {
