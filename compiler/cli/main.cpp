@@ -239,8 +239,8 @@ int run(int argc, char **argv) {
   Invocation call;
   // In the order in which the overview shows them.
   for (const auto declare :
-       {declareNew, declareImports, declareCheck, declareBuild, declareRuns, declareDoc, declareTest,
-        declareFmt, declarePlot, declareCams, declareCnc, declareCan, declareLibraries,
+       {declareNew, declareImports, declareCheck, declareBuild, declareRuns, declareDoc,
+        declareTest, declareFmt, declarePlot, declareCams, declareCnc, declareCan, declareLibraries,
         declareExplain, declareCompletion, declareHelp})
     declare(app, call);
   try {

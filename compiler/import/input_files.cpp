@@ -50,8 +50,8 @@ void placeByFolders(Model &model) {
     const std::vector<std::string> folders = foldersAbove(object.origin.file);
     if (!common)
       common = folders;
-    common->resize(static_cast<size_t>(
-        std::ranges::mismatch(*common, folders).in1 - common->begin()));
+    common->resize(
+        static_cast<size_t>(std::ranges::mismatch(*common, folders).in1 - common->begin()));
   }
   for (Object &object : model.objects) {
     if (!isFilePerObject(object))

@@ -238,8 +238,9 @@ void readProjectItem(const std::string &file, const XmlDocument &document,
   else if (element == "Compile")
     model.references.push_back({withSlashes(include), origin});
   else if (element == "PlaceholderReference")
-    addLibrary({include, versionOfLibrary(item.child("DefaultResolution").text().as_string()),
-                origin, {}}, model);
+    addLibrary(
+        {include, versionOfLibrary(item.child("DefaultResolution").text().as_string()), origin, {}},
+        model);
   else if (element == "LibraryReference")
     addLibrary({nameOfLibrary(include), versionOfLibrary(include), origin, {}}, model);
 }
