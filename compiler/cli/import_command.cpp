@@ -9,6 +9,7 @@
 #include "compiler/project/library_index.hpp"
 #include "compiler/project/output_folder.hpp"
 #include "compiler/project/project.hpp"
+#include "compiler/semantics/builtins.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -165,6 +166,13 @@ std::optional<fs::path> publish(const fs::path &staging, const fs::path &target,
   return writeAll(target, files);
 }
 
+bool isBuiltin(std::string_view lowerName) {
+  const std::span<const BuiltinName> names = builtinNames();
+  return std::any_of(names.begin(), names.end(), [&](const BuiltinName &each) {
+    return equalIgnoringCase(each.name, lowerName);
+  });
+}
+
 size_t errorsOf(const std::vector<import::CheckCount> &checked) {
   size_t errors = 0;
   for (const import::CheckCount &each : checked)
@@ -178,11 +186,12 @@ void showSum(const import::Model &model, const std::vector<import::CheckCount> &
     return fmt::format("{} {}", count, count == 1 ? one : many);
   };
   print(fmt::format(
-      "Imported {} from {} into {}: {} left out, {} changed, {} in the check. Report: "
-      "{}\n",
+      "Imported {} from {} into {}: {} left out, {} changed, {} to look at, {} in the check. "
+      "Report: {}\n",
       some(model.objects.size(), "object", "objects"), some(model.files, "file", "files"),
       target.string(), model.leftOut.size() + model.unreadable.size(), model.changed.size(),
-      some(errorsOf(checked), "error", "errors"), (target / import::kReportFile).string()));
+      import::toLookAt(model), some(errorsOf(checked), "error", "errors"),
+      (target / import::kReportFile).string()));
 }
 
 /// Writes, checks and reports what was read.
@@ -239,7 +248,7 @@ int importCommand(const ImportOptions &options) {
       options.library,
       options.addressing,
       options.configuration,
-      {[&](std::string_view name) { return !index.find(name).empty(); },
+      {[&](std::string_view name) { return !index.find(name).empty() || isBuiltin(name); },
        [&](std::string_view name) { return index.isLibrary(name); }}};
   if (const std::string problem = import::finish(model, finish); !problem.empty())
     return showError(Code::UnreadableFile, problem, options.output);

@@ -64,8 +64,12 @@ constexpr std::array<std::string_view, 6> kSilentKeys = {"OBJECTFLAGS",     "SYM
 constexpr std::array<std::string_view, 3> kUsedKeys = {"NESTEDCOMMENTS", "PATH",
                                                        "GLOBAL_VARIABLE_LIST"};
 
-/// First lines of bodies that are drawn, not written.
-constexpr std::array<std::string_view, 3> kDrawnBodies = {"_LD_BODY", "_FBD_BODY", "_CFC_BODY"};
+/// Whether a line begins a body that is drawn: `_LD_BODY`, `_FBD_BODY`, `_CFC_BODY`, or others that
+/// nobody has documented.
+bool beginsDrawnBody(std::string_view line) {
+  return line.starts_with('_') && line.ends_with("_BODY") && firstWord(line) == line &&
+         !line.starts_with("_END_") && line != "_IL_BODY";
+}
 
 class Reader {
 public:
@@ -152,10 +156,14 @@ private:
     ++at_;
   }
 
-  /// Comments after the last object belong to nothing that is written.
+  /// Comments after the last object belong to it.
   void keepLastComment() {
     if (comment_.empty())
       return;
+    if (!model_.objects.empty() && model_.objects.back().origin.file == file_) {
+      model_.objects.back().text += comment_;
+      return;
+    }
     model_.kept.push_back({keptName("comments"), comment_});
     model_.changed.push_back(
         {originOf(commentBegin_), "comment", "kept in import/kept: no object comes after it"});
@@ -168,7 +176,7 @@ private:
 
   void take(Section section, const std::string_view endWord) {
     const size_t begin = at_;
-    const std::string object(trimmed(lines_[begin]));
+    const std::string object = objectOf(lines_[begin]);
     CommentState comments{attributes_["NESTEDCOMMENTS"] != "No"};
     const bool source = section <= Section::Resource;
     std::vector<std::string> content;
@@ -200,6 +208,14 @@ private:
     finish(section, begin, object, content);
     if (section != Section::Globals)
       attributes_.clear();
+  }
+
+  /// `PROGRAM Pump`: kind and name.
+  static std::string objectOf(std::string_view line) {
+    const std::string_view kind = firstWord(line);
+    const std::string_view rest = trimmed(line).substr(kind.size());
+    const std::string_view name = firstWord(rest);
+    return name.empty() ? std::string(kind) : fmt::format("{} {}", kind, name);
   }
 
   void finish(Section section, size_t begin, const std::string &object,
@@ -241,9 +257,7 @@ private:
     std::string text;
     for (size_t i = 0; i < content.size(); ++i) {
       const std::string_view line = trimmed(content[i]);
-      const bool drawn =
-          std::find(kDrawnBodies.begin(), kDrawnBodies.end(), line) != kDrawnBodies.end();
-      if (drawn) {
+      if (beginsDrawnBody(line)) {
         const std::vector<std::string> body(content.begin() + static_cast<ptrdiff_t>(i),
                                             content.end() - 1);
         return text + drawnBody(begin + i, object, body) + content.back() + "\n";
@@ -255,7 +269,7 @@ private:
     return text;
   }
 
-  /// Statements for a body that is drawn; `body` begins with one of kDrawnBodies. Converters of
+  /// Statements for a body that is drawn; `body` begins with `_LD_BODY` or the like. Converters of
   /// networks are called here. What cannot be converted is kept, and is an error of the compiler.
   std::string drawnBody(size_t begin, const std::string &object,
                         const std::vector<std::string> &body) {
@@ -340,7 +354,7 @@ private:
   void keep(size_t begin, const std::string &object, const std::vector<std::string> &content) {
     const std::string word(firstWord(object));
     model_.kept.push_back({keptName(word), joined(content)});
-    if (word == "_ALARMCONFIG" && hasNoAlarms(content))
+    if (word == "_ALARMCONFIG" && hasNoAlarms(content)) // of every project
       return;
     leaveOut(begin, object,
              fmt::format("{} lines of a section that is not imported; they are kept in import/kept",

@@ -1,6 +1,7 @@
 #include "compiler/import/finish.hpp"
 
 #include "compiler/import/addresses.hpp"
+#include "compiler/import/dialect.hpp"
 #include "compiler/import/names.hpp"
 #include "compiler/import/plc_configuration.hpp"
 #include "compiler/source/read_source.hpp"
@@ -34,6 +35,15 @@ void keepWhatLibrariesHave(Model &model) {
   model.channels.clear();
 }
 
+/// stride.toml wants something to call.
+void dropIdleTasks(Model &model) {
+  for (const Task &task : model.tasks)
+    if (task.programs.empty())
+      model.changed.push_back(
+          {task.origin, "task " + task.name, "dropped: it calls no program of this import"});
+  std::erase_if(model.tasks, [](const Task &task) { return task.programs.empty(); });
+}
+
 } // namespace
 
 std::string finish(Model &model, const FinishSettings &settings) {
@@ -43,11 +53,13 @@ std::string finish(Model &model, const FinishSettings &settings) {
   if (!configuration)
     return fmt::format("`{}` cannot be read: {}", settings.configuration, readSourceError());
   takeOnce(model);
+  dropIdleTasks(model);
   if (settings.library)
     keepWhatLibrariesHave(model);
   nameParameters(model, *configuration);
   settleAddressing(model, settings.addressing);
   moveAddresses(model);
+  settleDialect(model);
   renameReserved(model);
   lookUpLibraries(model, settings.own);
   return {};

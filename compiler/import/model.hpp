@@ -40,7 +40,7 @@ struct Task {
   std::string event;    ///< BOOL expression; empty: none
   std::vector<std::string> programs;
   Origin origin;
-  std::string watchdog; ///< duration; empty: none
+  std::string watchdog{}; ///< duration; empty: none
 };
 
 /// A library that the project refers to.
@@ -48,7 +48,7 @@ struct LibraryReference {
   std::string name;
   std::string version; ///< empty: not given
   Origin origin;
-  std::vector<std::string> contents; ///< names that it declares; empty: not said
+  std::vector<std::string> contents{}; ///< names that it declares; empty: not said
 };
 
 /// Text of a section that is not imported; it is kept beside the report.
@@ -83,7 +83,7 @@ struct DriveSetup {
   std::string name; ///< that of its AXIS_REF or SMC_ENCODER_REF
   std::vector<Parameter> parameters;
   Origin origin;
-  std::vector<NumberedParameter> numbered; ///< what a configuration file gives names to
+  std::vector<NumberedParameter> numbered{}; ///< what a configuration file gives names to
 };
 
 /// Drives that one task serves.
@@ -92,8 +92,8 @@ struct DriveGroupSetup {
   std::vector<Parameter> parameters;
   std::vector<DriveSetup> drives;
   Origin origin;
-  std::vector<DriveSetup> encoders;
-  std::vector<NumberedParameter> numbered;
+  std::vector<DriveSetup> encoders{};
+  std::vector<NumberedParameter> numbered{};
 };
 
 /// A bus; always of simulated drives, for other tools' drivers are not ours.

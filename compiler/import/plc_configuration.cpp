@@ -97,8 +97,8 @@ public:
     finishModule();
     if (parameters_ != 0)
       model_.notes.push_back(fmt::format(
-          "The PLC configuration ({}:{}) sets {} parameters of the target's hardware, which "
-          "Stride's devices do not have; its text is kept in import/kept.",
+          "The PLC configuration ({}:{}) sets parameters of the target's hardware, which Stride's "
+          "devices do not have: {}. Its text is kept in import/kept.",
           origin_.file, origin_.line, parameters_));
   }
 

@@ -51,7 +51,7 @@ std::string checkSection(const std::vector<CheckCount> &checked) {
   for (const CheckCount &each : checked)
     text += fmt::format("| {} | {} | {} | {} |\n", each.code, each.errors, each.warnings,
                         lineOf(each.title));
-  text += "\n";
+  text += errors == 0 ? "" : "\n";
   for (const CheckCount &each : checked)
     for (const std::string &place : each.places)
       if (each.errors != 0)
@@ -95,7 +95,7 @@ std::string driveSection(const std::vector<BusSetup> &buses) {
   return text.empty() ? text : heading("Parameters of drives to look at", count) + text;
 }
 
-std::string notesSection(const Model &model) {
+std::vector<std::string> notesOf(const Model &model) {
   std::vector<std::string> notes = model.notes;
   if (!model.assumedEncoding.empty())
     notes.push_back(fmt::format(
@@ -103,6 +103,11 @@ std::string notesSection(const Model &model) {
         "If letters in comments and texts are wrong, import again with --encoding (cp1251, cp850, "
         "latin1, …).",
         model.assumedEncoding.size(), model.files, model.assumedEncoding.front()));
+  return notes;
+}
+
+std::string notesSection(const Model &model) {
+  const std::vector<std::string> notes = notesOf(model);
   if (notes.empty())
     return {};
   std::string text = heading("To look at", notes.size());
@@ -150,6 +155,13 @@ std::string keptSection(const std::vector<ProjectFile> &files) {
 }
 
 } // namespace
+
+size_t toLookAt(const Model &model) {
+  const std::string drives = driveSection(model.buses);
+  return notesOf(model).size() +
+         static_cast<size_t>(std::count(drives.begin(), drives.end(), '\n')) -
+         (drives.empty() ? 0 : 3); // the heading
+}
 
 std::string reportOf(const Model &model, const ProjectSettings &settings,
                      const std::vector<ProjectFile> &files,

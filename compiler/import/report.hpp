@@ -26,6 +26,9 @@ struct CheckCount {
                                    const std::vector<ProjectFile> &files,
                                    const std::vector<CheckCount> &checked);
 
+/// How many things the report asks the user to look at.
+[[nodiscard]] size_t toLookAt(const Model &model);
+
 } // namespace stc::import
 
 #endif // STRIDE_COMPILER_IMPORT_REPORT_HPP

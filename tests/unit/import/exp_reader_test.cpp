@@ -106,14 +106,59 @@ TEST(ExpReader, drawnBodiesDoNotCompileSilently) {
   EXPECT_EQ(model.leftOut[0].origin.line, 4U);
 }
 
-TEST(ExpReader, unknownSectionsAreLeftOutAsAWhole) {
+TEST(ExpReader, unknownSectionsAreKeptAsText) {
   const Model model =
-      read("_WORKSPACE\n(* PROGRAM X\n_END_WORKSPACE\nPLC_CONFIGURATION\n_A\nPLC_END\nPROGRAM "
-           "P\nEND_PROGRAM\nrubbish\n");
-  EXPECT_THAT(model.objects, SizeIs(1));
-  ASSERT_THAT(model.leftOut, SizeIs(3));
-  EXPECT_EQ(model.leftOut[1].object, "PLC_CONFIGURATION");
-  EXPECT_EQ(model.leftOut[2].origin.line, 9U);
+      read("_WORKSPACE\n(* PROGRAM X\n_END_WORKSPACE\n_CURVES\n_A\n_END_CURVES\nPROGRAM "
+           "P\nEND_PROGRAM\nrubbish\n_OPEN\n_A : 1\nFUNCTION F : INT\nEND_FUNCTION\n");
+  EXPECT_THAT(model.objects, SizeIs(2)) << "a section without end takes nothing with it";
+  ASSERT_THAT(model.leftOut, SizeIs(4));
+  EXPECT_EQ(model.leftOut[0].object, "_CURVES");
+  EXPECT_EQ(model.leftOut[1].origin.line, 9U);
+  EXPECT_THAT(model.leftOut[2].text, HasSubstr("the file ends before _END_OPEN"));
+  ASSERT_THAT(model.kept, SizeIs(1));
+  EXPECT_EQ(model.kept[0].text, "_CURVES\n_A\n_END_CURVES\n");
+}
+
+TEST(ExpReader, commentsBetweenObjectsStay) {
+  const Model model = read("(* first\n *)\nPROGRAM P\nEND_PROGRAM\n(* of the action *)\nACTION A:\n"
+                           "END_ACTION\n(* last *)\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_EQ(model.objects[0].text, "(* first\n *)\nPROGRAM P\n\n(* of the action *)\nACTION A:\n"
+                                   "END_ACTION\nEND_PROGRAM\n(* last *)\n");
+  EXPECT_THAT(read("(* alone *)").kept, SizeIs(1));
+}
+
+TEST(ExpReader, onlyKnownKeysAreAttributes) {
+  const Model model = read("(* @WHAT := 'x' *)\nPROGRAM P\n(* @END_DECLARATION := '0' *)\n"
+                           "(* @note := 'x' *)\nEND_PROGRAM\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_EQ(model.objects[0].text, "PROGRAM P\n(* @note := 'x' *)\nEND_PROGRAM\n");
+  ASSERT_THAT(model.changed, SizeIs(1));
+  EXPECT_EQ(model.changed[0].object, "attribute @WHAT");
+}
+
+TEST(ExpReader, instructionsAreTheCompilersBusiness) {
+  const Model model = read("PROGRAM P\n_IL_BODY\nLD n\nEND_PROGRAM\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_EQ(model.objects[0].text, "PROGRAM P\nLD n\nEND_PROGRAM\n");
+}
+
+TEST(ExpReader, kindsOfTasks) {
+  const Model model =
+      read("RESOURCE\nTASK A (EVENT := MAX(a, b) > 2, PRIORITY := 4);\nP();\nEND_TASK\n"
+           "TASK B (INTERVAL := T#7ms, EVENT := x);\nP();\n{Additional_info : 1,0}\n"
+           "END_TASK\nTASK C (INTERVAL := T#7ms);\n{Additional_info : 2,3}\nEND_TASK\n"
+           "{event_task : 'start','what','Go','x'}\nEND_RESOURCE\n");
+  ASSERT_THAT(model.tasks, SizeIs(3));
+  EXPECT_EQ(model.tasks[0].event, "MAX(a, b) > 2");
+  EXPECT_EQ(model.tasks[0].priority, "4");
+  EXPECT_EQ(model.tasks[1].event, "") << "a cyclic task";
+  EXPECT_EQ(model.tasks[1].interval, "T#7ms");
+  EXPECT_EQ(model.tasks[2].interval, "") << "a freewheeling task";
+  EXPECT_THAT(model.changed, SizeIs(2));
+  ASSERT_THAT(model.leftOut, SizeIs(2));
+  EXPECT_THAT(model.leftOut[0].text, HasSubstr("watchdog"));
+  EXPECT_EQ(model.leftOut[1].object, "system event start");
 }
 
 TEST(ExpReader, theOldWordForFunctionBlocksIsReplaced) {
