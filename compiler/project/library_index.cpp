@@ -9,8 +9,9 @@ namespace stc {
 /// Whether the library's names need its name in front: they are words that programs use themselves
 /// (Line, SIZE). As in SoftMotion 3 and CODESYS V3.
 static bool isQualifiedOnly(const EmbeddedFile &file) {
-  return file.library == "SM3_CamBuilder" || file.library == "CAA_Types" ||
-         file.library == "CAA_Memory";
+  static constexpr std::string_view kLibraries[] = {"SM3_CamBuilder", "CAA_Types", "CAA_Memory",
+                                                    "Tc2_MC2"};
+  return std::ranges::find(kLibraries, file.library) != std::end(kLibraries);
 }
 
 static bool isForeign(const EmbeddedFile &file) { return file.library.starts_with("Tc2_"); }

@@ -6,15 +6,22 @@
 #include "compiler/semantics/cam_tables.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
+#include <algorithm>
+
 namespace stc {
 
 using namespace ast;
 
 namespace {
 
-/// Names of that file are seen in the scope without the library's name.
+/// Names of that file are seen in the scope without the library's name: also those of one of
+/// Stride's libraries that the project has asked for.
 bool isSeenUnqualified(const Scope &scope, const LibraryIndex::Entry &entry) {
-  return !entry.qualifiedOnly || scope.module->library->name == entry.library;
+  const Library &here = *scope.module->library;
+  return !entry.qualifiedOnly || here.name == entry.library ||
+         std::ranges::any_of(here.uses, [&](const UsedLibrary &used) {
+           return !used.library->isOwn && used.library->name == entry.library;
+         });
 }
 
 FoundEnumerator
@@ -106,7 +113,7 @@ Symbol *Lookup::listOfLibraries(const Scope &scope, Ident id) const {
   for (const UsedLibrary &own : scope.module->library->uses) {
     const Module &library = *modules_.at(own.library->name);
     const auto found = library.lists.find(id);
-    if (!own.library->qualifiedOnly && found != library.lists.end())
+    if (own.library->isOwn && !own.library->qualifiedOnly && found != library.lists.end())
       return found->second;
   }
   for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
@@ -251,7 +258,7 @@ FoundEnumerator Lookup::enumerator(const Scope &scope, Ident id, const Type *exp
 FoundEnumerator Lookup::enumeratorOfLibraries(const Scope &scope, Ident id) {
   FoundEnumerator own;
   for (const UsedLibrary &used : scope.module->library->uses) {
-    if (used.library->qualifiedOnly)
+    if (used.library->qualifiedOnly || !used.library->isOwn)
       continue;
     const auto found = enumeratorOf(modules_.at(used.library->name)->enumerators, id);
     if (found.enumerator == nullptr)
