@@ -82,6 +82,7 @@ struct GroupState {
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
   Tool tool;                       ///< Of the movements.
   uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
+  uint64_t refused;   ///< The last cycle, plus 1, in which a movement was refused in its own call.
   bool interrupting;  ///< It comes to rest to be continued later.
   ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Of the movements.
   double orientationLag;                             ///< Behind the system that is followed. [°]

@@ -6,6 +6,11 @@ namespace {
 
 constexpr int32_t kReservedPieces = 4; ///< Of the ring: what one step writes at most.
 
+bool differs(const Braking &a, const Braking &b) noexcept {
+  return a.deceleration != b.deceleration || a.jerk != b.jerk ||
+         a.accelerationPart != b.accelerationPart || a.jerkPart != b.jerkPart;
+}
+
 /// Whether a plan that begins with a piece has room: the motion does not brake, nor does its
 /// acceleration fall, so that it has not yet begun to heed what comes next.
 bool isCalm(const TimePiece &piece) noexcept {
@@ -84,6 +89,11 @@ void pushStrip(Motion &motion, int64_t strip) noexcept {
 }
 
 } // namespace
+
+bool differs(const Wish &a, const Wish &b) noexcept {
+  return a.override != b.override || a.limit != b.limit || differs(a.braking, b.braking) ||
+         a.stop != b.stop;
+}
 
 bool differs(const MotionSettings &a, const MotionSettings &b) noexcept {
   return a.kind != b.kind || a.jerk != b.jerk || a.share != b.share || a.lean != b.lean;

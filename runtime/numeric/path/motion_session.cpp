@@ -23,16 +23,6 @@ constexpr double kStopFactor = 1.04;
 constexpr double kStopCells = 1.6; ///< A plan to stop has larger cells, to be there soon.
 constexpr int32_t kPause = 8;      ///< Calls after a plan that came to nothing.
 
-bool differs(const Braking &a, const Braking &b) noexcept {
-  return a.deceleration != b.deceleration || a.jerk != b.jerk ||
-         a.accelerationPart != b.accelerationPart || a.jerkPart != b.jerkPart;
-}
-
-bool differs(const Wish &a, const Wish &b) noexcept {
-  return a.override != b.override || a.limit != b.limit || differs(a.braking, b.braking) ||
-         a.stop != b.stop;
-}
-
 /// Whether the law changes ahead to other settings.
 bool isChangeAhead(const Motion &motion) noexcept { return motion.law.first < motion.changed; }
 
@@ -190,7 +180,7 @@ int32_t cellsFor(const Motion &motion, int32_t most) noexcept {
 /// law; chooses with how many cells, and from where on.
 bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
   const double left = timeLeft(motion);
-  double free = left - motion.tail;
+  const double free = left - motion.tail;
   const auto leadFor = [&motion, budget](int32_t cells) {
     const int32_t perCell = motion.asked.settings.lean ? kLeanStepsPerCell : kStepsPerCell;
     const int32_t steps = hasJerk(motion) ? perCell * cells : kTrapezoidSteps;
@@ -203,7 +193,7 @@ bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
   if (isCalm ? calm > leadFor(cells) + motion.keep + 2.0 * motion.cycle
              : free > leadFor(cells) + motion.keep + 0.3 * motion.tail)
     return false;
-  if (isCalm) {
+  if (isCalm) { // as late as can be, with as much of the path as is known then
     while (cells > kLeastCells && leadFor(cells) + motion.keep > calm)
       cells -= kLeastCells / 4;
     motion.cells = cells;

@@ -12,7 +12,8 @@
 //  3. where the acceleration would jump up: a curve with the greatest jerk, from the lowest places
 //  on;
 //  4. where it would jump down: the greatest function below whose slope falls slowly enough, which
-//     is a convex hull after a transformation.
+//     is a convex hull after a transformation. That is done several times, since what the jerk
+//     allows depends on the velocities. Lean plans do it once less, from better velocities.
 // Free of the C++ standard library: linked into every application.
 #ifndef STRIDE_RUNTIME_NUMERIC_PATH_PLAN_HPP
 #define STRIDE_RUNTIME_NUMERIC_PATH_PLAN_HPP

@@ -62,6 +62,7 @@ double cellLength(const Plan &plan, double velocity, double needed, double part)
   return plan.coarse ? kCoarse * length : length;
 }
 
+/// See cellLength.
 double rampPartOf(const Plan &plan) noexcept { return plan.task.lean ? kLeanRampPart : kRampPart; }
 
 double growthOf(const Plan &plan) noexcept { return plan.coarse ? kCoarseGrowth : kGrowth; }
