@@ -89,6 +89,8 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"runtime/numeric/group",
        {"runtime/numeric/kinematics", "runtime/numeric/path", "runtime/numeric/profile",
         "runtime/numeric", "runtime/iec"}},
+      {"runtime/numeric/csy",
+       {"runtime/numeric/path", "runtime/numeric/profile", "runtime/numeric", "runtime/iec"}},
       {"runtime/numeric/nc", {"runtime/numeric/cnc", "runtime/numeric", "runtime/iec"}},
       {"runtime/axis", {"runtime/numeric/", "runtime/iec", "st"}},
       {"runtime/axis/cam", {"runtime/axis", "runtime/numeric/", "runtime/iec", "st"}},

@@ -1,0 +1,137 @@
+#include "runtime/numeric/csy/modulated_move.hpp"
+
+namespace stride::csy {
+
+using exact::isPositive;
+using exact::larger;
+using exact::smaller;
+
+namespace {
+
+using Leg = ModulatedMove::Leg;
+
+/// Speed after a way with a steady acceleration, which may be negative.
+double speedAfter(double speed, double acceleration, double way) noexcept {
+  return exact::sqrt(larger(0.0, speed * speed + 2.0 * acceleration * way));
+}
+
+double exitOf(const ModulatedMove &move, uint32_t index) noexcept {
+  return index + 1 < move.legs ? move.leg[index + 1].enter : 0.0;
+}
+
+/// How a leg is gone over: up to a peak, steady, and down.
+struct Course {
+  double peak;
+  double up, steady, down; ///< times [s]
+};
+
+Course courseOf(const ModulatedMove &move, uint32_t index) noexcept {
+  const Leg &leg = move.leg[index];
+  const double a = move.limits.acceleration;
+  const double d = move.limits.deceleration;
+  const double enter = leg.enter;
+  const double leave = exitOf(move, index);
+  const double meeting = (2.0 * a * d * leg.way + d * enter * enter + a * leave * leave) / (a + d);
+  Course course{};
+  course.peak = larger(smaller(leg.limit, exact::sqrt(meeting)), larger(enter, leave));
+  course.up = (course.peak - enter) / a;
+  course.down = (course.peak - leave) / d;
+  const double ramps =
+      0.5 * (enter + course.peak) * course.up + 0.5 * (leave + course.peak) * course.down;
+  course.steady = larger(0.0, leg.way - ramps) / course.peak;
+  return course;
+}
+
+/// Way and speed at a time in a leg.
+struct Place {
+  double way, speed;
+};
+
+Place placeIn(const ModulatedMove &move, const Course &course, double time) noexcept {
+  const Leg &leg = move.leg[move.at];
+  if (time < course.up)
+    return {(leg.enter + 0.5 * move.limits.acceleration * time) * time,
+            leg.enter + move.limits.acceleration * time};
+  const double rising = 0.5 * (leg.enter + course.peak) * course.up;
+  if (time < course.up + course.steady)
+    return {rising + course.peak * (time - course.up), course.peak};
+  const double left = larger(0.0, course.up + course.steady + course.down - time);
+  const double leave = exitOf(move, move.at);
+  return {leg.way - (leave + 0.5 * move.limits.deceleration * left) * left,
+          leave + move.limits.deceleration * left};
+}
+
+/// Legs in the direction of the move, without their speeds at the ends.
+void collectLegs(const Trajectory &trajectory, const double *speed, ModulatedMove &move) noexcept {
+  const double low = smaller(move.from, move.to);
+  const double high = larger(move.from, move.to);
+  move.legs = 0;
+  for (uint32_t i = 0; i < trajectory.pieces; ++i) {
+    const uint32_t index = move.direction > 0.0 ? i : trajectory.pieces - 1 - i;
+    const Piece &piece = trajectory.piece[index];
+    const double way = smaller(high, piece.start + piece.length) - larger(low, piece.start);
+    if (!(way > 0.0))
+      continue;
+    const double most = move.limits.velocity > 0.0 ? move.limits.velocity : exact::kInfinity;
+    move.leg[move.legs++] = {way, smaller(speed[index], most), 0.0};
+  }
+}
+
+/// The speeds where legs meet: what can be reached from the start and left for the end.
+void meetLegs(ModulatedMove &move) noexcept {
+  for (uint32_t i = 1; i < move.legs; ++i) {
+    const double most = smaller(move.leg[i - 1].limit, move.leg[i].limit);
+    move.leg[i].enter = smaller(
+        most, speedAfter(move.leg[i - 1].enter, move.limits.acceleration, move.leg[i - 1].way));
+  }
+  double leave = 0.0;
+  for (uint32_t i = move.legs; i-- > 0;) {
+    Leg &leg = move.leg[i];
+    leg.enter = smaller(leg.enter, speedAfter(leave, move.limits.deceleration, leg.way));
+    leave = leg.enter;
+  }
+}
+
+} // namespace
+
+bool beginMove(const Trajectory &trajectory, const double *speed, const MasterLimits &limits,
+               double from, double to, ModulatedMove &move) noexcept {
+  const auto onPath = [&trajectory](double position) noexcept {
+    return position >= 0.0 && position <= trajectory.length;
+  };
+  if (!onPath(from) || !onPath(to) || !isPositive(limits.acceleration) ||
+      !isPositive(limits.deceleration))
+    return false;
+  move.from = from;
+  move.to = to;
+  move.direction = to < from ? -1.0 : 1.0;
+  move.limits = limits;
+  move.at = 0;
+  move.since = 0.0;
+  move.base = 0.0;
+  collectLegs(trajectory, speed, move);
+  for (uint32_t i = 0; i < move.legs; ++i)
+    if (!(move.leg[i].limit > 0.0))
+      return false;
+  meetLegs(move);
+  return true;
+}
+
+MasterState advance(ModulatedMove &move, double time) noexcept {
+  move.since += time;
+  while (move.at < move.legs) {
+    const Course course = courseOf(move, move.at);
+    const double duration = course.up + course.steady + course.down;
+    if (move.since < duration) {
+      const Place place = placeIn(move, course, move.since);
+      return {move.from + move.direction * (move.base + place.way), move.direction * place.speed,
+              false};
+    }
+    move.since -= duration;
+    move.base += move.leg[move.at].way;
+    ++move.at;
+  }
+  return {move.to, 0.0, true};
+}
+
+} // namespace stride::csy
