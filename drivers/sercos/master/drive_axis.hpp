@@ -38,6 +38,8 @@ public:
   /// Without `communication`.
   [[nodiscard]] const bus::DriveStatus &status() const { return status_; }
   /// Bit n stands for mode n.
+  /// What its second encoder shows (S-0-0053), as a counter of 32 bits; 0: it has none. [inc]
+  [[nodiscard]] uint32_t secondPosition() const { return seconds_.counter(); }
   [[nodiscard]] uint8_t controllerModes() const;
   /// It is switched off, whatever the command says: it stops as well as it can.
   void shutDown() { shutDown_ = true; }
@@ -75,6 +77,7 @@ private:
   HomingRun homing_;
   Probes probes_;
   PositionCounter positions_;
+  PositionCounter seconds_; ///< Of S-0-0053.
   double velocityUnit_ = 1; ///< [inc/s]
   double torqueUnit_ = 1;   ///< [Nm]
   uint32_t before_ = 0;     ///< Position of the cycle before. [inc]
