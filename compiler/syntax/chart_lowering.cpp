@@ -69,6 +69,7 @@ private:
   void steps(Statements &out);
   void start(Statements &out);
   void resetFlags(Statements &out);
+  void run(const Use &use, bool final, Statements &out);
   void actions(Statements &out);
   Stmt *control(const Use &use);
   void currentStep(Statements &out);
@@ -244,8 +245,7 @@ void ChartLowering::start(Statements &out) {
   for (const Use &use : uses_) {
     out.push_back(make_.call({use.control.id, use.control.text, use.name.span},
                              {make_.argument("RESET", make_.boolean(true, use.name.span))}));
-    if (declared(use.name.text) != nullptr)
-      out.push_back(make_.assign(make_.variable(use.name), make_.boolean(false, use.name.span)));
+    run(use, true, out); // which makes a variable FALSE
   }
   if (Expr *again = anyFlag({"SFCInit", "SFCReset"})) {
     Statements flags;
@@ -272,6 +272,19 @@ Stmt *ChartLowering::control(const Use &use) {
   return make_.call(use.control, arguments);
 }
 
+/// The call of an action, in its final scan or while it is active. Only the check of the program
+/// knows whether the name means a variable instead, which is then set once.
+void ChartLowering::run(const Use &use, bool final, Statements &out) {
+  Expr *condition = make_.member(use.control, "_x");
+  if (final)
+    condition = make_.combined(BinaryOp::LogicalAnd,
+                               {make_.member(use.control, "x"), make_.negated(condition)});
+  auto *stmt = as<IfStmt>(make_.when(condition, {make_.call(use.name, {})}));
+  stmt->ofVariable = final ? make_.assign(make_.variable(use.name), make_.member(use.control, "_x"))
+                           : make_.empty(use.name.span);
+  out.push_back(stmt);
+}
+
 /// The final scans come before what is active now, so that a new step has the last word.
 void ChartLowering::actions(Statements &out) {
   for (const Use &use : uses_) {
@@ -282,21 +295,10 @@ void ChartLowering::actions(Statements &out) {
             {make_.assign(make_.member(use.control, "T", action->time->span), action->time)}));
     out.push_back(control(use));
   }
-  const auto run = [&](const Use &use, bool active) {
-    Expr *condition = make_.member(use.control, "_x");
-    if (!active)
-      condition = make_.combined(BinaryOp::LogicalAnd,
-                                 {make_.member(use.control, "x"), make_.negated(condition)});
-    out.push_back(make_.when(condition, {make_.call(use.name, {})}));
-  };
   for (const Use &use : uses_)
-    if (declared(use.name.text) != nullptr)
-      out.push_back(make_.assign(make_.variable(use.name), make_.member(use.control, "_x")));
-    else
-      run(use, false);
+    run(use, true, out);
   for (const Use &use : uses_)
-    if (declared(use.name.text) == nullptr)
-      run(use, true);
+    run(use, false, out);
 }
 
 /// Of parallel branches the last one in the text has the last word.

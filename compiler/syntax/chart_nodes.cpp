@@ -69,6 +69,12 @@ Expr *ChartNodes::combined(BinaryOp op, const std::vector<Expr *> &operands) {
   return operands.empty() ? nullptr : combined(op, operands.data(), operands.size());
 }
 
+Stmt *ChartNodes::empty(Span span) {
+  auto *node = arena_.make<Stmt>();
+  node->span = span;
+  return node;
+}
+
 Stmt *ChartNodes::assign(Expr *target, Expr *value) {
   auto *node = arena_.make<AssignStmt>();
   node->targets = arena_.copy(std::vector<Expr *>{target});

@@ -29,6 +29,7 @@ public:
   /// nested too deeply.
   ast::Expr *combined(ast::BinaryOp op, const std::vector<ast::Expr *> &operands);
 
+  ast::Stmt *empty(Span span);
   ast::Stmt *assign(ast::Expr *target, ast::Expr *value);
   ast::Stmt *when(ast::Expr *condition, const Statements &then, const Statements &otherwise = {});
   ast::Stmt *call(const ast::Name &callee, const std::vector<ast::Argument> &arguments);

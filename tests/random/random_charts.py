@@ -6,8 +6,8 @@ usage: random_charts.py STRIDE [--seeds FIRST..LAST] [--keep FOLDER]
 A seed is a project of ten charts, which `stride sim` runs for 200 cycles. Some are made of sequences, alternatives, parallel
 branches and loops; others are wild: transitions between any steps. Conditions are random bits, times and states of steps;
 actions have all qualifiers and are variables or statements; some charts are not called in each cycle, and some have the
-flags SFCInit, SFCReset and SFCPause. Each chart folds the states and times of its steps, its actions, the order in which their
-statements run, and the time into one number, cycle by cycle, which must be the one that the interpreter finds.
+flags SFCInit, SFCReset, SFCPause, SFCTipMode and SFCTip. Each chart folds the states and times of its steps, its actions and
+the order in which their statements run into one number, cycle by cycle, which must be the one that the interpreter finds.
 """
 import argparse
 import pathlib
@@ -122,7 +122,7 @@ class Chart:
         return f"{text} := {self.condition(condition)};\nEND_TRANSITION"
 
     def text(self):
-        flags = "SFCInit, SFCReset, SFCPause : BOOL; " if self.flags else ""
+        flags = "SFCInit, SFCReset, SFCPause, SFCTipMode, SFCTip : BOOL; " if self.flags else ""
         out = [f"FUNCTION_BLOCK Chart{self.number}", f"VAR_INPUT hash : ULINT; bits : WORD; {flags}END_VAR", "VAR"]
         out += [f"  a{i} : BOOL;" for i, (kind, _) in enumerate(self.actions) if kind == "variable"]
         out.append("END_VAR")
@@ -137,7 +137,8 @@ class Chart:
         out += order
         for i, (kind, _) in enumerate(self.actions):
             if kind == "statements" and any(i == action for step in self.steps for action, _ in step):
-                out.append(f"ACTION a{i}:\n  hash := (hash * 31 + {2 * i} + SEL(_a{i}._x, ULINT#0, ULINT#1)) MOD {MODULUS};\nEND_ACTION")
+                value = f"{2 * i} + SEL(_a{i}._x, ULINT#0, ULINT#1)"
+                out.append(f"ACTION a{i}:\n  hash := (hash * 31 + {value}) MOD {MODULUS};\nEND_ACTION")
         out += ["END_FUNCTION_BLOCK"]
         return out
 
@@ -147,7 +148,7 @@ class Chart:
         out = [f"{name}.bits := bits;"]
         if self.flags:
             out += [f"{name}.SFCInit := bits.12 AND bits.13 AND bits.3;", f"{name}.SFCReset := bits.13 AND bits.14 AND bits.2;",
-                    f"{name}.SFCPause := bits.14 AND bits.15;"]
+                    f"{name}.SFCPause := bits.14 AND bits.15;", f"{name}.SFCTipMode := bits.10;", f"{name}.SFCTip := bits.9;"]
         call = f"{name}();"
         out.append(f"IF bits.11 THEN {call} END_IF;" if self.skips else call)
         seen = [f"SEL({name}.s{i}.x, ULINT#0, ULINT#1) + TIME_TO_ULINT({name}.s{i}.t) * 2" for i in range(len(self.steps))]
@@ -220,6 +221,7 @@ class Interpreter:
         self.times = [0] * len(chart.steps)
         self.variables = [False] * len(chart.actions)
         self.hash = 0
+        self.tip = False  # at the last call
         self.clear()
 
     def clear(self):
@@ -229,7 +231,9 @@ class Interpreter:
     def fold(self, value):
         self.hash = (self.hash * 31 + value) % MODULUS
 
-    def holds(self, condition, bits):
+    def holds(self, condition, bits, tipped):
+        if tipped is not None:
+            return tipped
         kind = condition[0]
         if kind == "bit":
             return bool(bits >> condition[1] & 1)
@@ -237,12 +241,12 @@ class Interpreter:
             return self.times[condition[1]] >= condition[2]
         return kind == "true" or condition[1] in self.active or bool(bits >> condition[2] & 1)
 
-    def fire(self, bits):
+    def fire(self, bits, tipped):
         """The steps that are left, and those that are entered"""
         left, entered = set(), set()
         ranked = sorted(self.chart.transitions, key=lambda one: float("inf") if one[2] is None else one[2])
         for source, target, _, condition in ranked:
-            if self.active.issuperset(source) and left.isdisjoint(source) and self.holds(condition, bits):
+            if self.active.issuperset(source) and left.isdisjoint(source) and self.holds(condition, bits, tipped):
                 left.update(source)
                 entered.update(target)
         return left, entered
@@ -256,6 +260,9 @@ class Interpreter:
         flags = self.chart.flags
         init, reset, pause = (flags and bool(bits >> a & bits >> b & (bits >> c) & 1)
                               for a, b, c in ((12, 13, 3), (13, 14, 2), (14, 15, 15)))
+        tip = bool(bits >> 9 & 1)
+        tipped = tip and not self.tip if flags and bits >> 10 & 1 else None
+        self.tip = tip
         again = not self.active or init or reset
         if again or not pause:
             for step in self.active:
@@ -266,7 +273,7 @@ class Interpreter:
             self.change(set(self.active), {self.chart.initial}, now)
             self.clear()
         elif not pause:
-            self.change(*self.fire(bits), now)
+            self.change(*self.fire(bits, tipped), now)
         if not init and not pause:
             self.act(now)
 

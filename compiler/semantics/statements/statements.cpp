@@ -45,7 +45,21 @@ void checkBody(Context &c, PouSymbol *pou) {
   }
 }
 
+/// What the statement of a chart that runs an action is: a call, or an assignment to a variable.
+static Stmt *chosen(Context &c, Stmt *stmt) {
+  if (stmt->kind != StmtKind::If || as<IfStmt>(stmt)->ofVariable == nullptr)
+    return stmt;
+  const Stmt *call = as<IfStmt>(stmt)->branches.front().body.front();
+  const Expr *callee = as<CallExpr>(as<CallStmt>(call)->expr)->callee;
+  Symbol *symbol = lookup(c, as<NameExpr>(callee)->name);
+  const bool isVariable = symbol != nullptr && symbol->kind == SymbolKind::Variable &&
+                          !isInstance(typeOf(c, static_cast<VarSymbol *>(symbol)));
+  return isVariable ? as<IfStmt>(stmt)->ofVariable : stmt;
+}
+
 void checkBlock(Context &c, Block block) {
+  for (Stmt *&stmt : block)
+    stmt = chosen(c, stmt);
   for (Stmt *stmt : block)
     checkStatement(c, stmt);
 }
