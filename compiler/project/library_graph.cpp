@@ -339,7 +339,7 @@ bool LibraryGraph::readFiles(FoundLibrary &library) {
 void LibraryGraph::checkNames(const FoundLibrary &found) {
   const std::string help = "give one of them another name in the project: `namespace = \"" +
                            found.name + "2\"` in its [[library]]";
-  if (index_.isLibrary(lowerCase(found.name)))
+  if (index_.isReserved(lowerCase(found.name)))
     program_.diagnostics
         .report(Code::LibraryNamespace, found.nameSpan,
                 fmt::format("the namespace `{}` is that of a library of Stride", found.name),

@@ -5,6 +5,10 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/cam_tables.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "runtime/common/text.hpp"
+
+#include <algorithm>
+#include <vector>
 
 #include <algorithm>
 
@@ -116,7 +120,7 @@ Symbol *Lookup::listOfLibraries(const Scope &scope, Ident id) const {
     if (own.library->isOwn && !own.library->qualifiedOnly && found != library.lists.end())
       return found->second;
   }
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     const Module *library =
         isSeenUnqualified(scope, entry) ? findModule(entry.library) : nullptr; // loaded by now
     if (library == nullptr)
@@ -172,13 +176,24 @@ Found Lookup::inLibraries(const Scope &scope, Ident id) {
   Found found = inOwnLibraries(scope, id);
   if (!found)
     return {inStandardLibraries(scope, id)};
-  if (found.other == nullptr)
+  const std::vector<LibraryIndex::Entry> entries = standardEntries(id);
+  const bool contested = std::any_of(entries.begin(), entries.end(),
+                                     [](const auto &entry) { return !entry.isForeign; });
+  if (found.other == nullptr && contested)
     found.other = inStandardLibraries(scope, id);
   return found;
 }
 
+std::vector<LibraryIndex::Entry> Lookup::standardEntries(Ident id) const {
+  std::vector<LibraryIndex::Entry> entries = index_.find(id->lower);
+  std::erase_if(entries, [&](const LibraryIndex::Entry &entry) {
+    return entry.isForeign && ownModule(lowerCase(entry.library)) != nullptr;
+  });
+  return entries;
+}
+
 Symbol *Lookup::inStandardLibraries(const Scope &scope, Ident id) {
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     if (!entry.qualifiedOnly || !isSeenUnqualified(scope, entry))
       continue;
     load(entry);
@@ -188,7 +203,7 @@ Symbol *Lookup::inStandardLibraries(const Scope &scope, Ident id) {
   const auto [it, fresh] = inLibraries_.emplace(id, nullptr);
   if (!fresh)
     return it->second;
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     if (entry.qualifiedOnly)
       continue;
     load(entry);
@@ -210,7 +225,7 @@ Symbol *Lookup::inLibrary(Ident library, Ident id) {
            : space != own->spaces.end() ? static_cast<Symbol *>(space->second)
                                         : nullptr;
   }
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     if (!index_.answersTo(entry.library, library->lower))
       continue;
     load(entry);
@@ -271,7 +286,7 @@ FoundEnumerator Lookup::enumeratorOfLibraries(const Scope &scope, Ident id) {
   }
   if (own.enumerator != nullptr)
     return own;
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     if (!isSeenUnqualified(scope, entry))
       continue;
     load(entry);

@@ -154,6 +154,8 @@ private:
 
   Symbol *self(const Scope &scope, const ast::Name &name);
   Symbol *inStandardLibraries(const Scope &scope, Ident id);
+  /// Where Stride's libraries declare it. One of the project replaces a foreign one of its name.
+  [[nodiscard]] std::vector<LibraryIndex::Entry> standardEntries(Ident id) const;
   Symbol *listOfLibraries(const Scope &scope, Ident id) const;
   FoundEnumerator enumeratorOfLibraries(const Scope &scope, Ident id);
   FoundEnumerator usedEnumerator(const Scope &scope, Ident id);

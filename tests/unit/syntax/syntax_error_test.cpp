@@ -86,8 +86,8 @@ TEST(SyntaxError, ElseIf) {
 
 TEST(SyntaxError, AssignmentAndComparison) {
   EXPECT_EQ(bodyErrors("\na = 5;"), "SE0204 2:3 `=` compares, it does not assign\n");
-  EXPECT_EQ(bodyErrors("\na.b[1] = b = 5; IF a := 1 AND b THEN c := 1; END_IF"),
-            "SE0204 2:8 `=` compares, it does not assign\nSE0205 2:22 `:=` assigns, it does not "
+  EXPECT_EQ(bodyErrors("\na.b[1] = b = 5; IF a[0] := 1 AND b THEN c := 1; END_IF"),
+            "SE0204 2:8 `=` compares, it does not assign\nSE0205 2:25 `:=` assigns, it does not "
             "compare\n");
   EXPECT_EQ(bodyErrors("\nFOR i = 1 TO 5 DO END_FOR"),
             "SE0204 2:7 `=` compares, it does not assign\n");
