@@ -2,6 +2,7 @@
 #define STRIDE_COMPILER_IMPORT_MODEL_HPP
 // What readers of other tools' project files find, whatever the format.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -138,6 +139,7 @@ struct Model {
   std::vector<MovedAddress> addresses;
   std::string addressing; ///< [image] addressing of stride.toml; empty: not said
   std::vector<KeptText> kept;
+  std::optional<size_t> configuration; ///< which of `kept` is the PLC configuration that was read
   std::vector<Remark> changed;
   std::vector<Remark> leftOut;    ///< losses
   std::vector<Remark> unreadable; ///< files of which nothing was taken
