@@ -67,7 +67,7 @@ struct DrawnBody {
   std::string object; ///< its kind and name, as in the file
   std::string kind;   ///< `LD`, `FBD` or `CFC`
   std::string mark;   ///< stands for it in the object's text
-  std::function<networks::Translation(const networks::Scope &)> translate;
+  std::function<networks::Translation(networks::Scope &)> translate;
   KeptText kept; ///< where it cannot be translated; empty path: nothing
 };
 

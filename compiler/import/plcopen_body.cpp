@@ -28,7 +28,7 @@ std::string drawnBody(Context &context, const Node &body, const Node &drawn,
       body, [&](const Node &node) { return context.originOf(node).line; }, problems);
   return markDrawnBody(context.model(), context.originOf(drawn), object,
                        std::string(localName(drawn)),
-                       [read = std::move(read), problems](const networks::Scope &scope) {
+                       [read = std::move(read), problems](networks::Scope &scope) {
                          networks::Translation result;
                          result.problems = problems;
                          return result.ok() ? networks::translated(read, scope) : result;

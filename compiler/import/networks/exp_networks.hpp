@@ -25,7 +25,7 @@ struct NumberedLine {
 /// must know the blocks' declarations. Words that no published export shows (jumps among them) are
 /// problems: their meaning is not guessed.
 [[nodiscard]] Translation translatedExpBody(const std::vector<NumberedLine> &lines,
-                                            const Scope &scope);
+                                            Scope &scope);
 
 /// The parts of it: an empty body and problems where it cannot be read.
 [[nodiscard]] Body readExpNetworks(const std::vector<NumberedLine> &lines, const Scope &scope,
