@@ -165,18 +165,20 @@ private:
 /// Hierarchical addresses without the hardware that they belong to.
 void reportUnknown(Model &model) {
   std::set<std::string> seen;
-  for (const Object &object : model.objects)
+  for (const Object &object : model.objects) {
+    LineCounter lines(object.text);
     for (const StWord &word : wordsOf(object.text)) {
       const std::string text = object.text.substr(word.begin, word.end - word.begin);
       const std::optional<Address> address =
           word.kind == StWord::Kind::Address ? addressOf(text) : std::nullopt;
       if (address && address->area != 'm' && isHierarchical(*address) && seen.insert(text).second)
         model.leftOut.push_back(
-            {{object.origin.file, object.origin.line + lineAt(object.text, word.begin) - 1},
+            {{object.origin.file, object.origin.line + lines.at(word.begin) - 1},
              text,
              "it names a module of the target's hardware; import the export of the PLC "
              "configuration, too"});
     }
+  }
 }
 
 } // namespace
@@ -219,12 +221,14 @@ void moveAddresses(Model &model) {
   for (IoChannel &channel : model.channels)
     if (std::string moved = mover.move(channel.address, channel.origin, 1); !moved.empty())
       channel.address = std::move(moved);
-  for (Object &object : model.objects)
+  for (Object &object : model.objects) {
+    LineCounter lines(object.text);
     object.text = replaceWords(object.text, [&](const StWord &word, std::string_view text) {
       return word.kind == StWord::Kind::Address
-                 ? mover.move(text, object.origin, lineAt(object.text, word.begin))
+                 ? mover.move(text, object.origin, lines.at(word.begin))
                  : std::string();
     });
+  }
 }
 
 } // namespace stc::import

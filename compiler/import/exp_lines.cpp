@@ -60,7 +60,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string_view firstWord(std::string_view line) {
-  line = trimmed(line);
+  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
   const auto *end = std::find_if_not(line.begin(), line.end(), isWordCharacter);
   return line.substr(0, static_cast<size_t>(end - line.begin()));
 }

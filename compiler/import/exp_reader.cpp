@@ -11,7 +11,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -76,7 +75,11 @@ bool beginsDrawnBody(std::string_view line) {
 class Reader {
 public:
   Reader(const std::string &file, std::string_view text, Model &model)
-      : file_(file), lines_(linesOf(text)), model_(model) {}
+      : file_(file), lines_(linesOf(text)), model_(model) {
+    for (size_t i = 0; i < lines_.size(); ++i)
+      if (const std::string_view word = firstWord(lines_[i]); word.starts_with("_END"))
+        ends_[word] = i;
+  }
 
   void read() {
     while (at_ < lines_.size())
@@ -131,9 +134,15 @@ private:
     for (const SectionWord &each : kSections)
       if (word == each.begin)
         return take(each.section, each.end), true;
-    if (word.size() > 1 && word.front() == '_' && !endless_.contains(std::string(word)))
+    if (word.size() > 1 && word.front() == '_' && endsLater(word))
       return take(Section::Unknown, fmt::format("_END{}", word)), true;
     return false;
+  }
+
+  /// Whether an end of the section comes; if not, the line is none, and takes nothing with it.
+  bool endsLater(std::string_view word) {
+    const auto end = ends_.find(std::string_view(fmt::format("_END{}", word)));
+    return end != ends_.end() && end->second > at_;
   }
 
   /// A line between the objects; only comments and pragmas may stand there.
@@ -190,10 +199,6 @@ private:
     }
     if (at_ == lines_.size()) {
       leaveOut(begin, object, fmt::format("the file ends before {}; export it again", endWord));
-      if (section == Section::Unknown) { // perhaps no section: the lines after it are looked at
-        endless_.emplace(firstWord(object));
-        at_ = begin + 1;
-      }
       return;
     }
     ++at_;
@@ -314,11 +319,11 @@ private:
     std::string name = attributes_["GLOBAL_VARIABLE_LIST"];
     if (name.empty())
       name = byDefault;
-    for (Object &each : model_.objects)
-      if (each.kind == ObjectKind::GlobalList && each.name == name && each.origin.file == file_) {
-        each.text += "\n" + std::exchange(comment_, {}) + joined(content);
-        return;
-      }
+    const auto [list, isNew] = lists_.try_emplace(name, model_.objects.size());
+    if (!isNew) {
+      model_.objects[list->second].text += "\n" + std::exchange(comment_, {}) + joined(content);
+      return;
+    }
     add(ObjectKind::GlobalList, begin, name, joined(content));
   }
 
@@ -352,15 +357,15 @@ private:
   void addHardware(size_t begin, const std::string &object,
                    const std::vector<std::string> &content) {
     const std::string text = joined(content);
-    const std::string name = keptName(object);
-    for (const KeptText &each : model_.kept)
-      if (each.path.ends_with(object) && each.text == text) {
+    if (model_.configuration) {
+      if (model_.kept[*model_.configuration].text == text)
         model_.changed.push_back({originOf(begin), object, "taken once, it is there twice"});
-        return;
-      }
-    if (!model_.hardware.empty())
-      return leaveOut(begin, object, "another one was read before; import one project at a time");
-    model_.kept.push_back({name, text});
+      else
+        leaveOut(begin, object, "another one was read before; import one project at a time");
+      return;
+    }
+    model_.configuration = model_.kept.size();
+    model_.kept.push_back({keptName(object), text});
     readPlcConfiguration(content, originOf(begin), model_);
   }
 
@@ -390,7 +395,8 @@ private:
   std::optional<size_t> lastPou_;
   std::string comment_; ///< that stands before the object that comes next
   size_t commentBegin_ = 0;
-  std::set<std::string> endless_;  ///< words of sections that the file does not end
+  std::map<std::string_view, size_t> ends_; ///< the last line of each `_END_…`
+  std::map<std::string, size_t> lists_;     ///< the file's lists, by name
   std::optional<size_t> strayEnd_; ///< the line after the last one that belongs to no section
 };
 

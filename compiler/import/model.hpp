@@ -6,6 +6,7 @@
 #include "compiler/import/networks/translation.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -153,6 +154,7 @@ struct Model {
   std::string addressing; ///< [image] addressing of stride.toml; empty: not said
   std::vector<KeptText> kept;
   std::vector<DrawnBody> drawn; ///< marks in the objects' texts
+  std::optional<size_t> configuration; ///< which of `kept` is the PLC configuration that was read
   std::vector<Remark> changed;
   std::vector<Remark> leftOut;    ///< losses
   std::vector<Remark> unreadable; ///< files of which nothing was taken

@@ -86,14 +86,14 @@ bool sameTask(const Task &a, const Task &b) {
 
 void takeTasksOnce(Model &model) {
   std::vector<Task> kept;
+  std::map<std::string, size_t> byName;
   for (Task &task : model.tasks) {
-    const auto other = std::find_if(kept.begin(), kept.end(), [&](const Task &each) {
-      return equalIgnoringCase(each.name, task.name);
-    });
-    if (other == kept.end()) {
+    const auto [first, isNew] = byName.try_emplace(lowerCase(task.name), kept.size());
+    if (isNew) {
       kept.push_back(std::move(task));
       continue;
     }
+    const Task *other = &kept[first->second];
     const std::string where = fmt::format("{}:{}", other->origin.file, other->origin.line);
     if (sameTask(*other, task))
       model.changed.push_back(

@@ -71,14 +71,17 @@ std::vector<std::string> textsOf(std::string_view line) {
   return texts;
 }
 
-std::string_view typeOf(std::string_view address) {
+/// By the size in the address; four bytes may be a number of another kind, which the section says.
+std::string_view typeOf(std::string_view address, const std::string &section) {
+  const bool isReal = lowerCase(section).find("float") != std::string::npos ||
+                      lowerCase(section).find("real") != std::string::npos;
   switch (address.size() > 2 ? address[2] : '\0') {
   case 'B':
     return "BYTE";
   case 'W':
     return "WORD";
   case 'D':
-    return "DWORD";
+    return isReal ? "REAL" : "DWORD";
   case 'R':
     return "REAL";
   default:
@@ -125,7 +128,9 @@ private:
       setAddress(line);
     else if (key == "_BIT" && channel_)
       addBit(line, texts);
-    else if (key == "_SECTION_NAME" && !channel_ && !modules_.empty())
+    else if (key == "_SECTION_NAME" && channel_)
+      channelSection_ = first;
+    else if (key == "_SECTION_NAME" && !modules_.empty())
       modules_.back().section = first;
     else if (key == "_MODULE_NAME" && !modules_.empty())
       modules_.back().name = first;
@@ -221,7 +226,7 @@ private:
 
   void finishChannel() {
     if (channel_ && !channel_->name.empty() && !channel_->address.empty()) {
-      channel_->type = typeOf(channel_->address);
+      channel_->type = typeOf(channel_->address, channelSection_);
       addNamed(*channel_);
     }
     channel_.reset();
@@ -260,6 +265,7 @@ private:
   std::vector<Module> modules_; ///< those that are open, the root first
   bool open_ = false;           ///< the last one's head is being read
   std::optional<IoChannel> channel_;
+  std::string channelSection_;
   std::set<std::string> foreign_; ///< vendors
   size_t parameters_ = 0;         ///< of modules that are no drives
 };

@@ -4,7 +4,7 @@
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -43,14 +43,20 @@ std::string folderNameOf(const std::string &name) {
 
 /// Takes the path, or another one when it is taken.
 std::string freePath(const std::string &stem, const std::string &ending,
-                     std::set<std::string> &taken) {
+                     std::map<std::string, size_t> &taken) {
   std::string path = stem + ending;
-  for (size_t n = 2; !taken.insert(stride::common::lowerCase(path)).second; ++n)
-    path = fmt::format("{}_{}{}", stem, n, ending);
-  return path;
+  // Counted for each name, so that many of one name take no longer than others.
+  size_t &count = taken[stride::common::lowerCase(path)];
+  if (++count == 1)
+    return path;
+  for (;; ++count) {
+    path = fmt::format("{}_{}{}", stem, count, ending);
+    if (taken.try_emplace(stride::common::lowerCase(path), 1).second)
+      return path;
+  }
 }
 
-std::string pathOf(const Object &object, std::set<std::string> &taken) {
+std::string pathOf(const Object &object, std::map<std::string, size_t> &taken) {
   std::string stem;
   for (size_t i = 0; i < std::min(object.folder.size(), kDeepestFolder); ++i)
     stem += folderNameOf(object.folder[i]) + "/";
@@ -157,7 +163,7 @@ std::string tomlText(std::string_view text) {
 
 std::vector<ProjectFile> projectFiles(const Model &model, const ProjectSettings &settings) {
   std::vector<ProjectFile> files;
-  std::set<std::string> taken;
+  std::map<std::string, size_t> taken;
   for (const Object &object : model.objects)
     files.push_back({pathOf(object, taken), object.text});
   if (!model.channels.empty())

@@ -111,9 +111,10 @@ std::string replaceWords(std::string_view text,
   return result;
 }
 
-size_t lineAt(std::string_view text, size_t place) {
-  return 1 + static_cast<size_t>(
-                 std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(place), '\n'));
+size_t LineCounter::at(size_t place) {
+  for (; place_ < place; ++place_)
+    line_ += text_[place_] == '\n' ? 1 : 0;
+  return line_;
 }
 
 } // namespace stc::import
