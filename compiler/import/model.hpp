@@ -153,7 +153,7 @@ struct Model {
   std::vector<MovedAddress> addresses;
   std::string addressing; ///< [image] addressing of stride.toml; empty: not said
   std::vector<KeptText> kept;
-  std::vector<DrawnBody> drawn; ///< marks in the objects' texts
+  std::vector<DrawnBody> drawn;        ///< marks in the objects' texts
   std::optional<size_t> configuration; ///< which of `kept` is the PLC configuration that was read
   std::vector<Remark> changed;
   std::vector<Remark> leftOut;    ///< losses

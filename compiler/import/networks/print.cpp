@@ -25,8 +25,7 @@ std::set<std::string> rootOf(std::string_view variable) {
 class Translator {
 public:
   Translator(Body body, Scope &scope)
-      : body_(std::move(body)), scope_(scope), values_(body_, scope_, writer_, result_) {
-  }
+      : body_(std::move(body)), scope_(scope), values_(body_, scope_, writer_, result_) {}
 
   Translation run(const std::vector<std::vector<NodeIndex>> &schedule) {
     for (size_t i = 0; i < schedule.size(); ++i) {

@@ -316,8 +316,8 @@ void Values::beforeWriting(const std::set<std::string> &written) {
 
 void Values::storeAll() {
   for (auto &[port, value] : values_)
-    if (body_.nodes[port.first].kind != NodeKind::Call &&
-        !isTruth(value.expression) && !value.stored)
+    if (body_.nodes[port.first].kind != NodeKind::Call && !isTruth(value.expression) &&
+        !value.stored)
       store(port, value);
 }
 

@@ -221,15 +221,17 @@ TEST(PlcOpen, SaysWhatItDoesNotKnow) {
       "<dataType name=\"no name\"><baseType><INT/></baseType></dataType>",
       "<pou name=\"P\" pouType=\"program\"><interface/>\n<colour/><colour/>" + body("x;") +
           "\n<addData><data name=\"http://vendor/page\" handleUnknown=\"discard\"><Page/></data>"
-          "</addData></pou>\n<pou name=\"Q\" pouType=\"program\"><interface/><body><FBD><shape/></FBD></body>"
+          "</addData></pou>\n<pou name=\"Q\" "
+          "pouType=\"program\"><interface/><body><FBD><shape/></FBD></body>"
           "</pou>"));
   stc::import::translateDrawnBodies(model, {});
-  EXPECT_EQ(remarks(model.leftOut),
-            "5: type `no name`: its name is no identifier\n"
-            "6: element colour in pou: its meaning is not known here (2 in this file)\n"
-            "7: addData http://vendor/page of pou: its meaning is not known here\n"
-            "8: Q: its body is drawn (FBD) and not imported: the element `shape` is not imported in "
-            "a drawing\n");
+  EXPECT_EQ(
+      remarks(model.leftOut),
+      "5: type `no name`: its name is no identifier\n"
+      "6: element colour in pou: its meaning is not known here (2 in this file)\n"
+      "7: addData http://vendor/page of pou: its meaning is not known here\n"
+      "8: Q: its body is drawn (FBD) and not imported: the element `shape` is not imported in "
+      "a drawing\n");
   EXPECT_EQ(textOf(model, "Q"), "PROGRAM Q\n\n{error 'body not imported: FBD'}\nEND_PROGRAM\n");
 }
 
