@@ -1,6 +1,11 @@
 // Bodies of PLCopen XML: text is taken as it is, charts become textual SFC.
-#include "compiler/import/exp_lines.hpp"
+#include "compiler/import/drawn_bodies.hpp"
+#include "compiler/import/networks/plcopen_networks.hpp"
+#include "compiler/import/networks/print.hpp"
 #include "compiler/import/plcopen_context.hpp"
+
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,12 +13,34 @@ namespace stc::import::plcopen {
 
 namespace {
 
-/// A body that is drawn: CODESYS puts a CFC into the body's addData.
-Node drawing(const Node &body) {
-  for (const Extra &each : extrasOf(body))
-    if (localName(each.element) == "CFC")
-      return each.element;
-  return {};
+/// A name for the file that keeps what cannot be translated.
+std::string keptNameOf(const std::string &object, size_t line) {
+  std::string name = fmt::format("{}_{}", object, line);
+  for (char &c : name)
+    if (!isName(std::string("_") + c))
+      c = '_';
+  return name;
+}
+
+/// The line that stands for a drawing until everything is declared that it may name.
+std::string drawingText(Context &context, const Node &body, const Node &drawing,
+                        const std::string &object) {
+  std::vector<networks::Problem> problems;
+  networks::Body content = networks::readPlcOpenBody(
+      body, [&](const Node &node) { return context.originOf(node).line; }, problems);
+  std::ostringstream kept;
+  drawing.print(kept, "  ");
+  const Origin origin = context.originOf(drawing);
+  return markDrawnBody(
+      context.model(), origin, object, std::string(localName(drawing)),
+      [content = std::move(content), problems = std::move(problems)](const networks::Scope &scope) {
+        if (problems.empty())
+          return networks::translated(content, scope);
+        networks::Translation refused;
+        refused.problems = problems;
+        return refused;
+      },
+      {keptNameOf(object, origin.line), kept.str()});
 }
 
 } // namespace
@@ -37,15 +64,9 @@ std::string bodyText(Context &context, const Node &body, const Node &pou, const 
       text += linesOf(each);
     else if (kind == "SFC")
       text += chartText(context, each, pou, object, members);
-    else if (kind == "FBD" || kind == "LD") {
-      context.leftOut(each, object, fmt::format("its body is drawn ({})", kind));
-      text += errorPragma(kind);
-    }
   }
-  if (const Node drawn = drawing(body)) {
-    context.leftOut(drawn, object, "its body is drawn (CFC)");
-    text += errorPragma("CFC");
-  }
+  if (const Node drawing = networks::drawingIn(body))
+    text += drawingText(context, body, drawing, object);
   return comment + text;
 }
 
