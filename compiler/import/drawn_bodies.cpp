@@ -1,7 +1,8 @@
 #include "compiler/import/drawn_bodies.hpp"
 
+#include "compiler/import/exp_lines.hpp"
+
 #include <algorithm>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -39,41 +40,53 @@ size_t afterVariables(std::string_view text, size_t before) {
   return before;
 }
 
-/// Whether an action's body begins at the offset: its variables belong to the POU.
-bool isInAction(std::string_view text, size_t at) {
-  constexpr std::string_view kAction = "ACTION";
-  constexpr std::string_view kEnd = "END_ACTION";
-  const size_t begin = text.rfind(kAction, at);
-  if (begin == std::string_view::npos || (begin >= 4 && text.substr(begin - 4, 10) == kEnd))
-    return false;
-  return isWordAt(text, begin, kAction) && lineBegin(text, begin) == begin;
-}
+/// The part of a POU that a place is in.
+struct Part {
+  enum class Kind { Pou, Action, Method };
+  Kind kind = Kind::Pou;
+  size_t body = 0;  ///< after its first line
+  size_t pou = 0;   ///< after the POU's first line
+  size_t first = 0; ///< where the POU's first member begins
+};
 
-/// The end of the first line that begins with the POU's header.
-size_t afterHeader(std::string_view text) {
-  size_t at = 0;
-  while (at < text.size()) {
+Part partAt(std::string_view text, size_t mark) {
+  Part part;
+  part.first = mark;
+  for (size_t at = 0; at < mark;) {
     const size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    at = std::min(end + 1, text.size());
-    for (const std::string_view word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK"})
-      if (line.starts_with(word) && isWordAt(line, 0, word))
-        return at;
+    const std::string_view line = trimmed(text.substr(at, end - at));
+    const std::string_view word = firstWord(line);
+    const size_t next = std::min(end + 1, text.size());
+    if (part.pou == 0 && (word == "PROGRAM" || word == "FUNCTION" || word == "FUNCTION_BLOCK"))
+      part.pou = part.body = next;
+    const bool action = word == "ACTION" || word == "TRANSITION";
+    if (action || word == "METHOD" || word == "PROPERTY" || word == "GET" || word == "SET") {
+      part.kind = action ? Part::Kind::Action : Part::Kind::Method;
+      part.body = next;
+      part.first = std::min(part.first, at);
+    } else if (word == "END_ACTION" || word == "END_METHOD" || word == "END_PROPERTY" ||
+               word == "END_TRANSITION") {
+      part.kind = Part::Kind::Pou;
+    }
+    at = next;
   }
-  return 0;
+  return part;
 }
 
-void declare(std::string &text, size_t mark, const std::string &declarations) {
+/// A method's variables do not keep their values unless they say so; an action has none.
+void declare(std::string &text, size_t mark, std::string declarations) {
   if (declarations.empty())
     return;
-  if (!isInAction(text, mark)) {
-    text.insert(afterVariables(text, mark), declarations);
+  const Part part = partAt(text, mark);
+  if (part.kind == Part::Kind::Action) {
+    const size_t place = afterVariables(text, part.first);
+    text.insert(place == part.first || place < part.pou ? part.pou : place, declarations);
     return;
   }
-  const size_t first = text.find("\nACTION ");
-  const size_t header = afterHeader(text);
-  const size_t place = afterVariables(text, std::min(first, mark));
-  text.insert(place == std::min(first, mark) ? header : place, declarations);
+  if (part.kind == Part::Kind::Method)
+    declarations.insert(3, "_INST"); // after VAR
+  const size_t place = afterVariables(text, mark);
+  text.insert(place < part.body ? mark : place, declarations);
 }
 
 /// Indents statements as the mark is.

@@ -16,7 +16,7 @@ struct FinishSettings {
   std::string addressing;                     ///< the user's answer; empty: as the format has it
   std::string configuration;                  ///< file that names numbered parameters; empty: none
   OwnLibraries own;                           ///< what Stride offers
-  std::vector<std::string_view> libraryTexts; ///< its declarations, for bodies that are drawn
+  std::vector<std::string_view> libraryTexts = {}; ///< its declarations, for bodies that are drawn
 };
 
 /// Puts statements in the place of bodies that are drawn, takes objects that are there twice once,

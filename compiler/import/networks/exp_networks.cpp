@@ -382,9 +382,10 @@ Translation translatedExpBody(const std::vector<NumberedLine> &lines, const Scop
   Translation result;
   const bool chart = !lines.empty() && trim(lines.front().text) == "_CFC_BODY";
   if (lines.empty() || !beginsDrawnBody(lines.front().text)) {
-    result.problems.push_back({lines.empty() ? 0 : lines.front().line,
-                               "no published export shows a body of this kind; change it to ST or IL "
-                               "there and export it again"});
+    result.problems.push_back(
+        {lines.empty() ? 0 : lines.front().line,
+         "no published export shows a body of this kind; change it to ST or IL "
+         "there and export it again"});
     return result;
   }
   Body body = chart ? readExpChart(lines, scope, result.problems)

@@ -265,12 +265,15 @@ void Values::set(Wire from, Expression value, size_t further) {
     return;
   }
   const bool store = mustBeStored(from, value, uses);
-  const auto place = values_.insert_or_assign(portOf(from), Value{std::move(value), uses, false}).first;
+  const auto place =
+      values_.insert_or_assign(portOf(from), Value{std::move(value), uses, false}).first;
   if (store)
     this->store(place->first, place->second);
 }
 
-void Values::setKept(Wire from) { values_[portOf(from)] = {textOf(keptName(from)), readers(from), true}; }
+void Values::setKept(Wire from) {
+  values_[portOf(from)] = {textOf(keptName(from)), readers(from), true};
+}
 
 void Values::setVariable(Wire from, const Expression &value, const std::string &type) {
   if (type.empty())

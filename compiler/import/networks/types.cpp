@@ -40,10 +40,7 @@ std::string common(const std::string &a, const std::string &b) {
 }
 
 std::string concrete(const std::string &type) {
-  return type == kAnyInteger ? "DINT"
-         : type == kAnyReal  ? "REAL"
-         : type == kAnyBit   ? "BOOL"
-                             : type;
+  return type == kAnyInteger ? "DINT" : type == kAnyReal ? "REAL" : type == kAnyBit ? "BOOL" : type;
 }
 
 /// Where a function's result has the type of its operands, from which operand on.
@@ -228,8 +225,8 @@ public:
     for (const InPin &each : node.inputs)
       if (!each.enable)
         operands.push_back(&each);
-    const std::string result = resultOf(node.text, operands.size(), scope_,
-                                        [&](size_t i) { return input(*operands[i]); });
+    const std::string result =
+        resultOf(node.text, operands.size(), scope_, [&](size_t i) { return input(*operands[i]); });
     const std::string upper = upperCase(node.text);
     const bool bits = upper == "AND" || upper == "OR" || upper == "XOR" || upper == "NOT";
     return result.empty() && bits ? std::string(kAnyBit) : result;
