@@ -3,6 +3,7 @@
 #include "compiler/import/exp_lines.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,8 @@ namespace {
 using networks::Problem;
 using networks::Scope;
 using networks::Translation;
+
+constexpr std::string_view kMark = "{drawn body ";
 
 /// The line with the offset.
 size_t lineBegin(std::string_view text, size_t at) {
@@ -104,22 +107,28 @@ std::string indented(const std::string &statements, std::string_view indent) {
 
 class Replacement {
 public:
-  Replacement(Model &model, const Scope &libraries) : model_(model), scope_(libraries) {
-    for (const Object &each : model.objects)
-      scope_.declare(each.text);
+  Replacement(Model &model, Scope libraries) : model_(model), scope_(std::move(libraries)) {
+    for (size_t i = 0; i < model.objects.size(); ++i) {
+      const std::string &text = model.objects[i].text;
+      scope_.declare(text);
+      for (size_t at = text.find(kMark); at != std::string::npos; at = text.find(kMark, at + 1))
+        places_.emplace(text.substr(at, text.find('}', at) - at + 1), i);
+    }
   }
 
   void replace(const DrawnBody &drawn) {
-    for (Object &object : model_.objects)
-      if (const size_t at = object.text.find(drawn.mark); at != std::string::npos)
-        return replaceIn(object, at, drawn);
+    const auto place = places_.find(drawn.mark);
+    if (place == places_.end())
+      return;
+    Object &object = model_.objects[place->second];
+    if (const size_t at = object.text.find(drawn.mark); at != std::string::npos)
+      replaceIn(object, at, drawn);
   }
 
 private:
   void replaceIn(Object &object, size_t at, const DrawnBody &drawn) {
-    Scope scope = scope_;
-    scope.enter(object.text);
-    const Translation result = drawn.translate(scope);
+    scope_.enter(object.text);
+    const Translation result = drawn.translate(scope_);
     std::string &text = object.text;
     const size_t begin = lineBegin(text, at);
     const std::string indent = text.substr(begin, at - begin);
@@ -131,7 +140,8 @@ private:
         model_.leftOut.push_back(
             {{drawn.origin.file, problem.line},
              drawn.object,
-             fmt::format("its body is drawn ({}) and not imported: {}", drawn.kind, problem.text)});
+             fmt::format("its body is drawn ({}) and not imported: {}{}", drawn.kind, problem.text,
+                         drawn.kept.path.empty() ? "" : "; its text is kept")});
       if (!drawn.kept.path.empty())
         model_.kept.push_back(drawn.kept);
       text.replace(begin, length,
@@ -150,13 +160,14 @@ private:
 
   Model &model_;
   Scope scope_;
+  std::map<std::string, size_t> places_; ///< of marks in the model's objects
 };
 
 } // namespace
 
 std::string markDrawnBody(Model &model, Origin origin, std::string object, std::string kind,
                           DrawnTranslator translate, KeptText kept) {
-  const std::string mark = fmt::format("{{drawn body {}}}", model.drawn.size() + 1);
+  const std::string mark = fmt::format("{}{}}}", kMark, model.drawn.size() + 1);
   model.drawn.push_back({std::move(origin), std::move(object), std::move(kind), mark,
                          std::move(translate), std::move(kept)});
   return mark + "\n";
@@ -168,7 +179,7 @@ void translateDrawnBodies(Model &model, std::span<const std::string_view> librar
   Scope scope;
   for (const std::string_view text : libraries)
     scope.declare(text);
-  Replacement replacement(model, scope);
+  Replacement replacement(model, std::move(scope));
   for (const DrawnBody &each : model.drawn)
     replacement.replace(each);
   model.drawn.clear();

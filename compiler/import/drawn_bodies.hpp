@@ -13,7 +13,7 @@
 namespace stc::import {
 
 /// Makes statements with the declarations around the body; the POU has been entered.
-using DrawnTranslator = std::function<networks::Translation(const networks::Scope &)>;
+using DrawnTranslator = std::function<networks::Translation(networks::Scope &)>;
 
 /// Notes a body that is drawn and returns the line that stands for it in the POU's text, directly
 /// after the POU's (or the action's, the method's) declarations. `kind` is `LD`, `FBD` or `CFC`;

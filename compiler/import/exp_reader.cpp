@@ -279,16 +279,23 @@ private:
   /// The mark for a body that is drawn; `body` begins with `_LD_BODY` or the like.
   std::string drawnBody(size_t begin, const std::string &object,
                         const std::vector<std::string> &body) {
+    KeptText kept{keptName(fmt::format("{}_{}", object, begin + 1)), joined(body)};
+    std::string_view kind = trimmed(body.front());
+    if (!networks::beginsDrawnBody(kind)) {
+      leaveOut(begin, object, fmt::format("its body is drawn ({}); its text is kept", kind));
+      model_.kept.push_back(std::move(kept));
+      return fmt::format("{{error 'body not imported: {}'}}\n", kind);
+    }
     std::vector<networks::NumberedLine> lines;
     for (size_t i = 0; i < body.size(); ++i)
       lines.push_back({body[i], begin + i + 1});
-    std::string_view kind = trimmed(body.front());
     kind = kind.substr(1, kind.find("_BODY") - 1);
-    return markDrawnBody(model_, originOf(begin), object, std::string(kind),
-                         [lines = std::move(lines)](const networks::Scope &scope) {
-                           return networks::translatedExpBody(lines, scope);
-                         },
-                         {keptName(fmt::format("{}_{}", object, begin + 1)), joined(body)});
+    return markDrawnBody(
+        model_, originOf(begin), object, std::string(kind),
+        [lines = std::move(lines)](networks::Scope &scope) {
+          return networks::translatedExpBody(lines, scope);
+        },
+        std::move(kept));
   }
 
   void addPou(size_t begin, const std::string &object, const std::vector<std::string> &content) {

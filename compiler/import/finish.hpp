@@ -12,10 +12,10 @@
 namespace stc::import {
 
 struct FinishSettings {
-  bool library = false;                       ///< what belongs to an application is left out
-  std::string addressing;                     ///< the user's answer; empty: as the format has it
-  std::string configuration;                  ///< file that names numbered parameters; empty: none
-  OwnLibraries own;                           ///< what Stride offers
+  bool library = false;      ///< what belongs to an application is left out
+  std::string addressing;    ///< the user's answer; empty: as the format has it
+  std::string configuration; ///< file that names numbered parameters; empty: none
+  OwnLibraries own;          ///< what Stride offers
   std::vector<std::string_view> libraryTexts = {}; ///< its declarations, for bodies that are drawn
 };
 

@@ -68,7 +68,7 @@ struct DrawnBody {
   std::string object; ///< its kind and name, as in the file
   std::string kind;   ///< `LD`, `FBD` or `CFC`
   std::string mark;   ///< stands for it in the object's text
-  std::function<networks::Translation(const networks::Scope &)> translate;
+  std::function<networks::Translation(networks::Scope &)> translate;
   KeptText kept; ///< where it cannot be translated; empty path: nothing
 };
 
@@ -169,7 +169,7 @@ struct Model {
   std::vector<AxisLink> axisLinks;
   std::vector<std::string> named; ///< Stride's libraries that stride.toml must name
   std::vector<KeptText> kept;
-  std::vector<DrawnBody> drawn; ///< marks in the objects' texts
+  std::vector<DrawnBody> drawn;        ///< marks in the objects' texts
   std::optional<size_t> configuration; ///< which of `kept` is the PLC configuration that was read
   std::vector<Remark> changed;
   std::vector<Remark> leftOut;    ///< losses

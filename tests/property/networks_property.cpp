@@ -523,7 +523,8 @@ Scope scene() {
 }
 
 void compare(const Body &body, const std::vector<uint16_t> &inputs) {
-  const Translation text = translated(body, scene());
+  Scope scope = scene();
+  const Translation text = translated(body, scope);
   RC_ASSERT(text.ok());
   RC_LOG() << text.declarations << text.statements;
   std::map<std::string, std::string> all = declaredInstances(text.declarations);

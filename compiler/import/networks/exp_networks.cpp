@@ -378,7 +378,7 @@ Body readExpNetworks(const std::vector<NumberedLine> &lines, const Scope &scope,
   }
 }
 
-Translation translatedExpBody(const std::vector<NumberedLine> &lines, const Scope &scope) {
+Translation translatedExpBody(const std::vector<NumberedLine> &lines, Scope &scope) {
   Translation result;
   const bool chart = !lines.empty() && trim(lines.front().text) == "_CFC_BODY";
   if (lines.empty() || !beginsDrawnBody(lines.front().text)) {

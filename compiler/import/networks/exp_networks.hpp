@@ -24,8 +24,7 @@ struct NumberedLine {
 /// Translates a body whose first line begins a drawn body. The files have no names of pins: `scope`
 /// must know the blocks' declarations. Words that no published export shows (jumps among them) are
 /// problems: their meaning is not guessed.
-[[nodiscard]] Translation translatedExpBody(const std::vector<NumberedLine> &lines,
-                                            const Scope &scope);
+[[nodiscard]] Translation translatedExpBody(const std::vector<NumberedLine> &lines, Scope &scope);
 
 /// The parts of it: an empty body and problems where it cannot be read.
 [[nodiscard]] Body readExpNetworks(const std::vector<NumberedLine> &lines, const Scope &scope,

@@ -14,6 +14,7 @@ namespace {
 
 constexpr size_t kLinksInAChain = 1000;
 constexpr size_t kWiresOfAPin = 1000;
+constexpr size_t kStepsBesideAComment = 2000; // that are looked at
 
 bool isStep(const Node &node) {
   switch (node.kind) {
@@ -29,29 +30,30 @@ bool isStep(const Node &node) {
   }
 }
 
-/// Puts the nodes of one network in order. Without recursion: drawings can be deep.
+/// Puts the nodes of networks in order. Without recursion: drawings can be deep.
 class Scheduler {
 public:
-  Scheduler(const Body &body, const Network &network)
-      : body_(body), network_(network), state_(body.nodes.size(), State::New) {}
-
-  std::vector<NodeIndex> run() {
-    std::vector<bool> read(body_.nodes.size(), false);
+  explicit Scheduler(const Body &body)
+      : body_(body), state_(body.nodes.size(), State::New), read_(body.nodes.size(), false) {
     for (const Node &node : body_.nodes)
       for (const InPin &pin : node.inputs)
         for (const Wire &wire : pin.wires)
-          read[wire.node] = true;
+          read_[wire.node] = true;
+  }
+
+  std::vector<NodeIndex> run(const Network &network) {
+    steps_.clear();
     std::vector<NodeIndex> roots;
     std::vector<NodeIndex> others; // in circles that nothing outside reads
-    for (const NodeIndex index : network_.nodes)
+    for (const NodeIndex index : network.nodes)
       if (isStep(body_.nodes[index]))
-        (isRoot(index, read[index]) ? roots : others).push_back(index);
+        (isRoot(index, read_[index]) ? roots : others).push_back(index);
     for (std::vector<NodeIndex> *list : {&roots, &others}) {
       sort(*list);
       for (const NodeIndex index : *list)
         visit(index);
     }
-    placeComments();
+    placeComments(network);
     return steps_;
   }
 
@@ -110,15 +112,15 @@ private:
     }
   }
 
-  void placeComments() {
+  void placeComments(const Network &network) {
     std::map<size_t, std::vector<NodeIndex>> before; // place in steps_ -> comments
-    for (const NodeIndex index : network_.nodes) {
+    for (const NodeIndex index : network.nodes) {
       const Node &comment = body_.nodes[index];
       if (comment.kind != NodeKind::Comment)
         continue;
       size_t best = 0;
       double nearest = -1;
-      for (size_t i = 0; i < steps_.size(); ++i) {
+      for (size_t i = 0; i < std::min(steps_.size(), kStepsBesideAComment); ++i) {
         const Node &node = body_.nodes[steps_[i]];
         const double dx = node.x - comment.x;
         const double dy = node.y - comment.y;
@@ -141,8 +143,8 @@ private:
   }
 
   const Body &body_;
-  const Network &network_;
   std::vector<State> state_;
+  std::vector<bool> read_; ///< whether a wire begins there
   std::vector<NodeIndex> steps_;
 };
 
@@ -180,8 +182,9 @@ void resolveLinks(Body &body, std::vector<Problem> &problems) {
 
 std::vector<std::vector<NodeIndex>> scheduleOf(const Body &body) {
   std::vector<std::vector<NodeIndex>> result;
+  Scheduler scheduler(body);
   for (const Network &network : body.networks)
-    result.push_back(Scheduler(body, network).run());
+    result.push_back(scheduler.run(network));
   return result;
 }
 

@@ -24,9 +24,8 @@ std::set<std::string> rootOf(std::string_view variable) {
 
 class Translator {
 public:
-  Translator(Body body, Scope scope)
-      : body_(std::move(body)), scope_(std::move(scope)), values_(body_, scope_, writer_, result_) {
-  }
+  Translator(Body body, Scope &scope)
+      : body_(std::move(body)), scope_(scope), values_(body_, scope_, writer_, result_) {}
 
   Translation run(const std::vector<std::vector<NodeIndex>> &schedule) {
     for (size_t i = 0; i < schedule.size(); ++i) {
@@ -433,7 +432,7 @@ private:
   }
 
   Body body_;
-  Scope scope_;
+  Scope &scope_;
   Writer writer_;
   Translation result_;
   Values values_;
@@ -468,14 +467,14 @@ void adopt(Body &body, const Scope &scope) {
 
 } // namespace
 
-Translation translated(Body body, Scope scope) {
+Translation translated(Body body, Scope &scope) {
   Translation result;
   adopt(body, scope);
   resolveLinks(body, result.problems);
   if (!result.ok())
     return result;
   const std::vector<std::vector<NodeIndex>> schedule = scheduleOf(body);
-  return Translator(std::move(body), std::move(scope)).run(schedule);
+  return Translator(std::move(body), scope).run(schedule);
 }
 
 } // namespace stc::import::networks

@@ -12,8 +12,9 @@ namespace stc::import::networks {
 /// expression that uses it; a variable is declared for it where it is used by several statements,
 /// where something in between would change it, and where a wire leads back: then the variable holds
 /// the value of the last cycle. Edges become instances of R_TRIG and F_TRIG. With EN, statements
-/// stand in an IF. `scope` has entered the POU.
-[[nodiscard]] Translation translated(Body body, Scope scope);
+/// stand in an IF. `scope` has entered the POU; it keeps the
+/// names of what is declared.
+[[nodiscard]] Translation translated(Body body, Scope &scope);
 
 } // namespace stc::import::networks
 

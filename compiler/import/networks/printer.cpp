@@ -180,9 +180,14 @@ Expression Values::edgeOf(Edge edge, const Expression &value, size_t line) {
 }
 
 Expression Values::take(Wire from) {
-  Value &value = values_.at(portOf(from));
-  value.uses -= std::min<size_t>(value.uses, 1);
-  return value.expression;
+  const auto found = values_.find(portOf(from));
+  if (found->second.uses > 1) {
+    --found->second.uses;
+    return found->second.expression;
+  }
+  Expression last = std::move(found->second.expression);
+  values_.erase(found);
+  return last;
 }
 
 std::string Values::wishFor(Wire from) const {
@@ -264,6 +269,8 @@ void Values::set(Wire from, Expression value, size_t further) {
     values_[portOf(from)] = {textOf(kept->second), uses, true};
     return;
   }
+  if (uses == 0)
+    return;
   const bool store = mustBeStored(from, value, uses);
   const auto place =
       values_.insert_or_assign(portOf(from), Value{std::move(value), uses, false}).first;
@@ -301,8 +308,6 @@ bool Values::store(Port port, Value &value) {
 
 void Values::beforeWriting(const std::set<std::string> &written) {
   for (auto &[port, value] : values_) {
-    if (value.uses == 0)
-      continue;
     const std::set<std::string> reads = readsOf(value.expression);
     if (std::ranges::any_of(reads, [&](const std::string &each) { return written.contains(each); }))
       store(port, value);
@@ -311,8 +316,8 @@ void Values::beforeWriting(const std::set<std::string> &written) {
 
 void Values::storeAll() {
   for (auto &[port, value] : values_)
-    if (value.uses != 0 && body_.nodes[port.first].kind != NodeKind::Call &&
-        !isTruth(value.expression) && !value.stored)
+    if (body_.nodes[port.first].kind != NodeKind::Call && !isTruth(value.expression) &&
+        !value.stored)
       store(port, value);
 }
 

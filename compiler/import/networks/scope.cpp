@@ -142,8 +142,10 @@ private:
       scope_.locals_[key] = each.type;
     if (section == "VAR_GLOBAL")
       scope_.globals_[key] = each.type;
-    if (entered_ || section == "VAR_GLOBAL")
+    if (section == "VAR_GLOBAL")
       scope_.taken_.insert(key);
+    if (entered_)
+      scope_.localTaken_.insert(key);
     if (pou_ == nullptr || inMember_)
       return;
     if (section == "VAR_INPUT")
@@ -196,11 +198,13 @@ void Scope::declare(std::string_view text) { DeclarationReader(text, *this, fals
 
 void Scope::enter(std::string_view text) {
   locals_.clear();
+  localTaken_.clear();
+  number_.clear();
   inFunction_ = false;
   DeclarationReader(text, *this, true).read();
 }
 
-void Scope::reserve(std::string_view name) { taken_.insert(lowerCase(name)); }
+void Scope::reserve(std::string_view name) { localTaken_.insert(lowerCase(name)); }
 
 const Interface *Scope::interfaceOf(std::string_view type) const {
   std::string key = lowerCase(trim(type));
@@ -280,12 +284,12 @@ std::string Scope::freshName(std::string_view wish) {
   std::string name = base;
   const auto taken = [&](const std::string &each) {
     const std::string key = lowerCase(each);
-    return taken_.contains(key) ||
+    return taken_.contains(key) || localTaken_.contains(key) ||
            std::ranges::find(kReserved, std::string_view(key)) != kReserved.end();
   };
-  for (int number = 2; taken(name); ++number)
-    name = fmt::format("{}_{}", base, number);
-  taken_.insert(lowerCase(name));
+  for (int &number = number_[lowerCase(base)]; taken(name); ++number)
+    name = fmt::format("{}_{}", base, number + 2);
+  localTaken_.insert(lowerCase(name));
   return name;
 }
 

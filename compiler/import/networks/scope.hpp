@@ -33,7 +33,8 @@ class Scope {
 public:
   /// Adds the POUs, types and global lists of a text.
   void declare(std::string_view text);
-  /// The declaration (with or without body) of the POU whose body is translated; adds to declare().
+  /// The declaration (with or without body) of the POU whose body is translated. What was made for
+  /// another one before is forgotten.
   void enter(std::string_view text);
   /// A further name that must not be used for something new.
   void reserve(std::string_view name);
@@ -57,7 +58,9 @@ private:
   std::map<std::string, std::string> aliases_;
   Members globals_;
   Members locals_;
-  std::set<std::string> taken_; ///< lower case
+  std::set<std::string> taken_;       ///< lower case
+  std::set<std::string> localTaken_;  ///< of the POU that was entered, and made for it
+  std::map<std::string, int> number_; ///< that freshName() tries next, by lower-case name
   bool inFunction_ = false;
 };
 

@@ -41,7 +41,8 @@ Scope scene() {
 }
 
 Translation translate(const std::string &text) {
-  return translatedExpBody(lines(spread(text)), scene());
+  Scope scope = scene();
+  return translatedExpBody(lines(spread(text)), scope);
 }
 
 /// A network of a ladder diagram with a rung, what EN boxes it has, and its coils.
