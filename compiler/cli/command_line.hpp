@@ -33,6 +33,7 @@ struct Invocation {
   TestOptions tests;
   FormatOptions formatting;
   PlotOptions plot;
+  ExportOptions exporting;
   CamOptions cams;
   CncOptions cnc;
   CanOptions can;
@@ -54,6 +55,8 @@ void declareRuns(CLI::App &app, Invocation &call);
 void declareCompletion(CLI::App &app, Invocation &call);
 /// stride import
 void declareImports(CLI::App &app, Invocation &call);
+/// The commands below `stride export`.
+void declareExports(CLI::App &app, Invocation &call);
 /// The commands below `stride library`.
 void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.

@@ -244,12 +244,16 @@ int importCommand(const ImportOptions &options) {
     return kUnreadable;
   }
   const EmbeddedLibraryIndex index(standardLibrary());
+  std::vector<std::string_view> libraryTexts;
+  for (const EmbeddedFile &file : standardLibrary().files)
+    libraryTexts.push_back(file.text);
   const import::FinishSettings finish{
       options.library,
       options.addressing,
       options.configuration,
       {[&](std::string_view name) { return !index.find(name).empty() || isBuiltin(name); },
-       [&](std::string_view name) { return index.isLibrary(name); }}};
+       [&](std::string_view name) { return index.isLibrary(name); }},
+      std::move(libraryTexts)};
   if (const std::string problem = import::finish(model, finish); !problem.empty())
     return showError(Code::UnreadableFile, problem, options.output);
   if (!model.unreadable.empty())

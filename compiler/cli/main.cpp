@@ -240,8 +240,8 @@ int run(int argc, char **argv) {
   // In the order in which the overview shows them.
   for (const auto declare :
        {declareNew, declareImports, declareCheck, declareBuild, declareRuns, declareDoc,
-        declareTest, declareFmt, declarePlot, declareCams, declareCnc, declareCan, declareLibraries,
-        declareExplain, declareCompletion, declareHelp})
+        declareTest, declareFmt, declarePlot, declareExports, declareCams, declareCnc, declareCan,
+        declareLibraries, declareExplain, declareCompletion, declareHelp})
     declare(app, call);
   try {
     app.parse(argumentsOf(argc, argv));

@@ -1,7 +1,9 @@
 #include "compiler/import/exp_reader.hpp"
 
+#include "compiler/import/drawn_bodies.hpp"
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/exp_tasks.hpp"
+#include "compiler/import/networks/exp_networks.hpp"
 #include "compiler/import/plc_configuration.hpp"
 #include "compiler/import/st_words.hpp"
 
@@ -274,14 +276,19 @@ private:
     return text;
   }
 
-  /// Statements for a body that is drawn; `body` begins with `_LD_BODY` or the like. Converters of
-  /// networks are called here. What cannot be converted is kept, and is an error of the compiler.
+  /// The mark for a body that is drawn; `body` begins with `_LD_BODY` or the like.
   std::string drawnBody(size_t begin, const std::string &object,
                         const std::vector<std::string> &body) {
-    const std::string_view kind = trimmed(body.front());
-    leaveOut(begin, object, fmt::format("its body is drawn ({}); its text is kept", kind));
-    model_.kept.push_back({keptName(fmt::format("{}_{}", object, begin + 1)), joined(body)});
-    return fmt::format("{{error 'body not imported: {}'}}\n", kind);
+    std::vector<networks::NumberedLine> lines;
+    for (size_t i = 0; i < body.size(); ++i)
+      lines.push_back({body[i], begin + i + 1});
+    std::string_view kind = trimmed(body.front());
+    kind = kind.substr(1, kind.find("_BODY") - 1);
+    return markDrawnBody(model_, originOf(begin), object, std::string(kind),
+                         [lines = std::move(lines)](const networks::Scope &scope) {
+                           return networks::translatedExpBody(lines, scope);
+                         },
+                         {keptName(fmt::format("{}_{}", object, begin + 1)), joined(body)});
   }
 
   void addPou(size_t begin, const std::string &object, const std::vector<std::string> &content) {

@@ -2,6 +2,7 @@
 
 #include "compiler/import/addresses.hpp"
 #include "compiler/import/dialect.hpp"
+#include "compiler/import/drawn_bodies.hpp"
 #include "compiler/import/names.hpp"
 #include "compiler/import/plc_configuration.hpp"
 #include "compiler/source/read_source.hpp"
@@ -52,6 +53,7 @@ std::string finish(Model &model, const FinishSettings &settings) {
     configuration = readSource(settings.configuration);
   if (!configuration)
     return fmt::format("`{}` cannot be read: {}", settings.configuration, readSourceError());
+  translateDrawnBodies(model, settings.libraryTexts);
   takeOnce(model);
   dropIdleTasks(model);
   if (settings.library)

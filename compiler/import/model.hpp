@@ -2,6 +2,10 @@
 #define STRIDE_COMPILER_IMPORT_MODEL_HPP
 // What readers of other tools' project files find, whatever the format.
 
+#include "compiler/import/networks/scope.hpp"
+#include "compiler/import/networks/translation.hpp"
+
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +60,16 @@ struct LibraryReference {
 struct KeptText {
   std::string path; ///< name of its file, without ending
   std::string text;
+};
+
+/// A body that is drawn and waits for all declarations; see drawn_bodies.hpp.
+struct DrawnBody {
+  Origin origin;
+  std::string object; ///< its kind and name, as in the file
+  std::string kind;   ///< `LD`, `FBD` or `CFC`
+  std::string mark;   ///< stands for it in the object's text
+  std::function<networks::Translation(const networks::Scope &)> translate;
+  KeptText kept; ///< where it cannot be translated; empty path: nothing
 };
 
 /// How far a value of another tool's configuration can be trusted.
@@ -140,6 +154,7 @@ struct Model {
   std::string addressing; ///< [image] addressing of stride.toml; empty: not said
   std::vector<KeptText> kept;
   std::optional<size_t> configuration; ///< which of `kept` is the PLC configuration that was read
+  std::vector<DrawnBody> drawn; ///< marks in the objects' texts
   std::vector<Remark> changed;
   std::vector<Remark> leftOut;    ///< losses
   std::vector<Remark> unreadable; ///< files of which nothing was taken

@@ -1,6 +1,7 @@
 #include "compiler/import/reader.hpp"
 
 #include "compiler/import/exp_reader.hpp"
+#include "compiler/import/plcopen_reader.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -26,8 +27,9 @@ bool isExp(std::string_view text) {
 }
 
 // A format is added here.
-constexpr std::array<Format, 1> kFormats = {{
+constexpr std::array<Format, 2> kFormats = {{
     {"CoDeSys V2.3 export", ".exp", isExp, readExp},
+    {"PLCopen XML", ".xml", isPlcOpen, readPlcOpen},
 }};
 
 /// Files of project tools that hold no text to read.

@@ -208,6 +208,8 @@ void FileParser::pou() {
 void FileParser::finishBody(ast::PouDecl *node, Content &content) {
   node->external = sawExternal_;
   sawExternal_ = false;
+  if (content.chart != nullptr)
+    finishChart(node, content);
   if (!content.statements.empty()) {
     const Span first = content.statements.front()->span;
     if (node->kind == ast::DeclKind::Interface || node->kind == ast::DeclKind::Class) {
@@ -259,8 +261,8 @@ void FileParser::content(Content &out, OpenPou *members) {
       member(members);
     } else if (startsAccessor()) {
       return;
-    } else if (isChart(now_.type)) {
-      chart();
+    } else if (startsChart(out.chart != nullptr)) {
+      chart(out.chart);
     } else {
       if (inBody || !instructionList(out))
         body(out.statements);
@@ -304,28 +306,6 @@ void FileParser::reportMissingEnds() {
         .label(one.found, "expected `" + text + "` before this");
   }
   missing_.clear();
-}
-
-// -----------------------------------------------------------------------------------------------
-// other languages
-
-/// Reports a sequential function chart and skips it, with the actions that belong to it.
-void FileParser::chart() {
-  if (now_.type == Tok::END_STEP || now_.type == Tok::END_TRANSITION) {
-    diagnostics_.report(Code::MismatchedEnd, span(now_),
-                        "`" + std::string(tokenSpelling(now_.type)) + "` closes nothing");
-    advance();
-    return;
-  }
-  diagnostics_
-      .report(Code::NotSupported, span(now_),
-              "a sequential function chart (SFC) is not supported by this version")
-      .help("write the steps as a CASE over a state variable");
-  while (!startsDeclaration()) {
-    if (endsUnit() && now_.type != Tok::END_ACTION)
-      return;
-    advance();
-  }
 }
 
 } // namespace stc

@@ -9,6 +9,7 @@
 #include "compiler/syntax/ast.hpp"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -60,9 +61,10 @@ struct Instruction {
 /// of its first value.
 class InstructionLowering {
 public:
-  /// `variables` of the body get those that the current result needs.
+  /// `variables` of the body get those that the current result needs; `prefix` begins their names.
   InstructionLowering(const std::vector<Instruction> &list, Interner &interner, Arena &arena,
-                      Diagnostics &diagnostics, std::vector<ast::VarDecl *> &variables);
+                      Diagnostics &diagnostics, std::vector<ast::VarDecl *> &variables,
+                      std::string prefix = "cr__");
   void run(std::vector<ast::Stmt *> &out);
 
 private:
@@ -123,6 +125,7 @@ private:
   Result now_;
   std::vector<Open> open_;
   bool reachable_ = true;
+  std::string prefix_;
   unsigned made_ = 0;
 };
 

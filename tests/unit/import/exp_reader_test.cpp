@@ -96,14 +96,14 @@ TEST(ExpReader, tasksHaveTheirProgramsAndTimes) {
   EXPECT_EQ(model.tasks[1].origin.line, 7U);
 }
 
-TEST(ExpReader, drawnBodiesDoNotCompileSilently) {
+TEST(ExpReader, drawnBodiesLeaveAMark) {
   const Model model = read("PROGRAM P\nVAR\nEND_VAR\n_LD_BODY\n_NETWORKS : 1\nEND_PROGRAM\n");
   ASSERT_THAT(model.objects, SizeIs(1));
-  EXPECT_THAT(model.objects[0].text,
-              HasSubstr("{error 'body not imported: _LD_BODY'}\nEND_PROGRAM\n"));
-  EXPECT_THAT(model.objects[0].text, Not(HasSubstr("_NETWORKS")));
-  ASSERT_THAT(model.leftOut, SizeIs(1));
-  EXPECT_EQ(model.leftOut[0].origin.line, 4U);
+  ASSERT_THAT(model.drawn, SizeIs(1));
+  EXPECT_EQ(model.drawn[0].kind, "LD");
+  EXPECT_EQ(model.drawn[0].origin.line, 4U);
+  EXPECT_EQ(model.objects[0].text,
+            "PROGRAM P\nVAR\nEND_VAR\n" + model.drawn[0].mark + "\nEND_PROGRAM\n");
 }
 
 TEST(ExpReader, unknownSectionsAreKeptAsText) {

@@ -32,9 +32,9 @@ TEST(ProjectFiles, everyObjectGetsAFileOfItsOwn) {
 
 TEST(ProjectFiles, tasksAreThoseOfTheProjectFile) {
   Model model;
-  model.tasks = {{"Fast", "3", "T#5ms", "", {"P", "Q"}, {"a.EXP", 2}},
-                 {"Go", "0", "", "s = \"a\"", {"R"}, {"a.EXP", 5}},
-                 {"Free", "", "", "", {}, {"a.EXP", 8}}};
+  model.tasks = {{"Fast", "3", "T#5ms", "", {"P", "Q"}, {"a.EXP", 2}, {}},
+                 {"Go", "0", "", "s = \"a\"", {"R"}, {"a.EXP", 5}, {}},
+                 {"Free", "", "", "", {}, {"a.EXP", 8}, {}}};
   EXPECT_EQ(
       projectFiles(model, {"a\"b", false})[0].text,
       "[project]\nname = \"a\\\"b\"\n"

@@ -195,11 +195,14 @@ TEST(SyntaxError, Tokens) {
             "SE0115 1:17 malformed direct address\nSE0115 1:34 malformed direct address\n");
 }
 
-TEST(SyntaxError, NotSupported) {
+TEST(SyntaxError, OtherLanguages) {
   EXPECT_EQ(bodyErrors("\nLD a\nAND b\nST c\n"), "");
   EXPECT_EQ(bodyErrors("\nINITIAL_STEP s:\nEND_STEP\nTRANSITION FROM s TO t := a;\nEND_TRANSITION"
                        "\nACTION x:\ny := 1;\nEND_ACTION\nSTEP t:\nx(N);\nEND_STEP"),
-            "SE0208 2:1 a sequential function chart (SFC) is not supported by this version\n");
+            "");
+  EXPECT_EQ(bodyErrors("\nINITIAL_STEP s:\nEND_STEP\nTRANSITION FROM s TO t := a;\nEND_TRANSITION"
+                       "\nACTION x:\ny := 1;\nEND_ACTION\nSTEP t\nx(N);\nEND_STEP"),
+            "SE0202 10:1 expected `:` in a sequential function chart\n");
 }
 
 TEST(SyntaxError, NoCascades) {

@@ -1,0 +1,250 @@
+// PLCopen XML: what becomes of types, POUs, tasks, and of what is not known.
+#include "compiler/import/plcopen_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+namespace {
+
+using stc::import::Model;
+using stc::import::Object;
+using stc::import::ObjectKind;
+using stc::import::readPlcOpen;
+using stc::import::Remark;
+
+Model read(const std::string &text) {
+  Model model;
+  readPlcOpen("line.xml", text, model);
+  return model;
+}
+
+std::string project(const std::string &types, const std::string &pous,
+                    const std::string &instances = {}, const std::string &rest = {}) {
+  return fmt::format("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+                     "<project xmlns=\"http://www.plcopen.org/xml/tc6_0200\">\n"
+                     "<fileHeader companyName=\"\" productName=\"\" productVersion=\"\"/>\n"
+                     "<contentHeader name=\"Line\"><coordinateInfo/></contentHeader>\n"
+                     "<types><dataTypes>{}</dataTypes><pous>{}</pous></types>\n"
+                     "<instances><configurations>{}</configurations></instances>\n{}\n</project>\n",
+                     types, pous, instances, rest);
+}
+
+std::string textOf(const Model &model, const std::string &name) {
+  for (const Object &each : model.objects)
+    if (each.name == name)
+      return each.text;
+  return "there is no " + name;
+}
+
+std::string remarks(const std::vector<Remark> &all) {
+  std::string text;
+  for (const Remark &each : all)
+    text += fmt::format("{}: {}: {}\n", each.origin.line, each.object, each.text);
+  return text;
+}
+
+std::string body(const std::string &text) {
+  return "<body><ST><xhtml xmlns=\"http://www.w3.org/1999/xhtml\">" + text + "</xhtml></ST></body>";
+}
+
+std::string data(const std::string &content) {
+  return "<addData><data name=\"http://www.3s-software.com/plcopenxml/x\" "
+         "handleUnknown=\"implementation\">" +
+         content + "</data></addData>";
+}
+
+TEST(PlcOpen, ReadsTypesOfAllKinds) {
+  const Model model = read(project(
+      "<dataType name=\"Mode\"><baseType><enum><values><value name=\"idle\"/>"
+      "<value name=\"run\" value=\"5\"/></values><baseType><USINT/></baseType></enum></baseType>"
+      "<initialValue><simpleValue value=\"run\"/></initialValue></dataType>"
+      "<dataType name=\"Part\"><baseType><struct><variable name=\"id\"><type><DINT/></type>"
+      "<initialValue><simpleValue value=\"-7\"/></initialValue></variable>"
+      "<variable name=\"text\"><type><wstring "
+      "length=\"9\"/></type></variable></struct></baseType>" +
+          data("<Inheritance><Extends>Base</Extends></Inheritance>") +
+          "</dataType>"
+          "<dataType name=\"Percent\"><baseType><subrangeUnsigned><range lower=\"0\" "
+          "upper=\"100\"/><baseType><UINT/></baseType></subrangeUnsigned></baseType></dataType>"
+          "<dataType name=\"Grid\"><baseType><array><dimension lower=\"-1\" upper=\"2\"/>"
+          "<dimension lower=\"1\" upper=\"3\"/><baseType><pointer><baseType><derived "
+          "name=\"Part\"/></baseType></pointer></baseType></array></baseType></dataType>"
+          "<dataType name=\"Name\"><baseType><string/></baseType><initialValue><simpleValue "
+          "value=\"it's\"/></initialValue></dataType>",
+      ""));
+  EXPECT_EQ(textOf(model, "Mode"),
+            "TYPE Mode :\n(\n  idle,\n  run := 5\n) USINT := run;\nEND_TYPE\n");
+  EXPECT_EQ(textOf(model, "Part"), "TYPE Part EXTENDS Base :\nSTRUCT\n  id : DINT := -7;\n"
+                                   "  text : WSTRING(9);\nEND_STRUCT\nEND_TYPE\n");
+  EXPECT_EQ(textOf(model, "Percent"), "TYPE Percent :\nUINT (0..100);\nEND_TYPE\n");
+  EXPECT_EQ(textOf(model, "Grid"),
+            "TYPE Grid :\nARRAY[-1..2, 1..3] OF POINTER TO Part;\nEND_TYPE\n");
+  EXPECT_EQ(textOf(model, "Name"), "TYPE Name :\nSTRING := 'it$'s';\nEND_TYPE\n");
+  EXPECT_EQ(remarks(model.leftOut), "");
+  EXPECT_EQ(model.objects.front().kind, ObjectKind::Type);
+  EXPECT_EQ(model.objects.front().origin.line, 5U);
+}
+
+TEST(PlcOpen, ReadsVariablesInTheirOrder) {
+  const Model model = read(project(
+      "", "<pou name=\"Mixer\" pouType=\"functionBlock\"><interface>"
+          "<inputVars><variable name=\"go\"><type><BOOL/></type><documentation><xhtml>Start\n of "
+          "all</xhtml></documentation></variable></inputVars>"
+          "<localVars constant=\"true\"><variable name=\"n\"><type><INT/></type><initialValue>"
+          "<simpleValue value=\"3\"/></initialValue></variable></localVars>"
+          "<outputVars retain=\"true\"><variable name=\"q\" address=\"%QX0.3\"><type><BOOL/></type>"
+          "</variable></outputVars><inOutVars/>"
+          "<localVars persistent=\"true\" retain=\"true\"><variable name=\"a\"><type><array>"
+          "<dimension lower=\"1\" upper=\"4\"/><baseType><INT/></baseType></array></type>"
+          "<initialValue><arrayValue><value><simpleValue value=\"2\"/></value>"
+          "<value repetitionValue=\"3\"><simpleValue value=\"5\"/></value></arrayValue>"
+          "</initialValue></variable><variable name=\"p\"><type><derived name=\"Part\"/></type>"
+          "<initialValue><structValue><value member=\"id\"><simpleValue value=\"1\"/></value>"
+          "</structValue></initialValue>" +
+              data("<Attributes><Attribute Name=\"hide\" Value=\"\"/></Attributes>") +
+              "</variable></localVars></interface>" + body("q := go;") + "</pou>"));
+  EXPECT_EQ(textOf(model, "Mixer"),
+            "FUNCTION_BLOCK Mixer\n"
+            "VAR_INPUT\n  /// Start\n  /// of all\n  go : BOOL;\nEND_VAR\n"
+            "VAR CONSTANT\n  n : INT := 3;\nEND_VAR\n"
+            "VAR_OUTPUT RETAIN\n  q AT %QX0.3 : BOOL;\nEND_VAR\n"
+            "VAR RETAIN PERSISTENT\n  a : ARRAY[1..4] OF INT := [2, 3(5)];\n"
+            "  {attribute 'hide'}\n  p : Part := (id := 1);\nEND_VAR\n"
+            "\nq := go;\nEND_FUNCTION_BLOCK\n");
+  EXPECT_EQ(remarks(model.leftOut), "");
+}
+
+TEST(PlcOpen, ReadsWhatCodesysAddsToABlock) {
+  const std::string method =
+      "<Method name=\"Add\"><interface><returnType><INT/></returnType><inputVars>"
+      "<variable name=\"by\"><type><INT/></type></variable></inputVars>" +
+      data("<AccessModifiers Protected=\"true\" Final=\"true\"/>") + "</interface>" +
+      body("Add := by;") + "</Method>";
+  const std::string property =
+      "<Property name=\"Sum\"><interface><returnType><DINT/></returnType></interface>"
+      "<GetAccessor><interface/>" +
+      body("Sum := total;") + "</GetAccessor></Property>";
+  const Model model = read(project(
+      "", "<pou name=\"Counter\" pouType=\"functionBlock\"><interface>" +
+              data("<Inheritance><Extends>Base</Extends><Implements>ICount</Implements>"
+                   "<Implements>IShow</Implements></Inheritance>") +
+              "</interface><actions><action name=\"Clear\">" + body("total := 0;") +
+              "</action></actions>" + body("Add(1);") + data(method) + data(property) + "</pou>"));
+  EXPECT_EQ(textOf(model, "Counter"),
+            "FUNCTION_BLOCK Counter EXTENDS Base IMPLEMENTS ICount, IShow\n\nAdd(1);\n"
+            "\nACTION Clear:\ntotal := 0;\nEND_ACTION\n"
+            "\nMETHOD PROTECTED FINAL Add : INT\nVAR_INPUT\n  by : INT;\nEND_VAR\nAdd := by;\n"
+            "END_METHOD\n"
+            "\nPROPERTY Sum : DINT\nGET\nSum := total;\nEND_GET\nEND_PROPERTY\n"
+            "END_FUNCTION_BLOCK\n");
+  EXPECT_EQ(remarks(model.leftOut), "");
+}
+
+TEST(PlcOpen, PrefersTheDeclarationAsItWasWritten) {
+  const Model model = read(project(
+      "", "<pou name=\"F\" pouType=\"function\"><interface><returnType><INT/></returnType>"
+          "</interface>" +
+              body("F := a; // done") +
+              data("<InterfaceAsPlainText><xhtml>FUNCTION F : INT // kept\nVAR_INPUT a : INT; "
+                   "END_VAR\n</xhtml></InterfaceAsPlainText>") +
+              "</pou>"));
+  EXPECT_EQ(textOf(model, "F"), "FUNCTION F : INT // kept\nVAR_INPUT a : INT; END_VAR\n\n"
+                                "F := a; // done\nEND_FUNCTION\n");
+}
+
+TEST(PlcOpen, ReadsTasksOfCodesys) {
+  const Model model = read(project(
+      "", "",
+      "<configuration name=\"Plc\"><resource name=\"App\">"
+      "<task name=\"Fast\" interval=\"PT0.0025S\" priority=\"3\"><pouInstance name=\"PRG_A\" "
+      "typeName=\"\"/>" +
+          data("<TaskSettings KindOfTask=\"Cyclic\" Interval=\"2500\" IntervalUnit=\"us\">"
+               "<Watchdog Enabled=\"true\" Time=\"t#7ms\" TimeUnit=\"ms\"/></TaskSettings>") +
+          "</task><task name=\"Idle\" priority=\"99\"><pouInstance name=\"PRG_B\" typeName=\"\"/>" +
+          data("<TaskSettings KindOfTask=\"Freewheeling\" Interval=\"20\" IntervalUnit=\"ms\"/>") +
+          "</task></resource></configuration>"));
+  ASSERT_EQ(model.tasks.size(), 2U);
+  EXPECT_EQ(model.tasks[0].interval, "LT#2500us");
+  EXPECT_EQ(model.tasks[0].priority, "3");
+  EXPECT_EQ(model.tasks[0].watchdog, "t#7ms");
+  EXPECT_EQ(model.tasks[0].programs, std::vector<std::string>{"PRG_A"});
+  EXPECT_EQ(model.tasks[1].interval, "");
+  EXPECT_EQ(model.tasks[1].priority, "31");
+  EXPECT_EQ(remarks(model.changed), "6: task Idle: its priority 99 became 31, the lowest\n");
+}
+
+TEST(PlcOpen, MakesAConfigurationOfInstances) {
+  const Model model = read(
+      project("", "",
+              "<configuration name=\"Plant\"><resource name=\"Res\">"
+              "<task name=\"T1\" interval=\"T#20ms\" priority=\"0\"><pouInstance name=\"left\" "
+              "typeName=\"Drive\"/><pouInstance name=\"right\" typeName=\"Drive\"/></task>"
+              "<task name=\"T2\" single=\"start\" priority=\"4\"/>"
+              "<globalVars><variable name=\"start\"><type><BOOL/></type></variable></globalVars>"
+              "<pouInstance name=\"rest\" typeName=\"Other\"/></resource>"
+              "<accessVars><accessVariable alias=\"seen\" instancePathAndName=\"Res.left.x\" "
+              "direction=\"readOnly\"><type><INT/></type></accessVariable></accessVars>"
+              "</configuration>"));
+  EXPECT_EQ(textOf(model, "Plant"),
+            "CONFIGURATION Plant\n  RESOURCE Res ON PLC\n"
+            "    TASK T1(INTERVAL := T#20ms, PRIORITY := 0);\n"
+            "    TASK T2(SINGLE := start, PRIORITY := 4);\n"
+            "    PROGRAM left WITH T1 : Drive;\n    PROGRAM right WITH T1 : Drive;\n"
+            "    PROGRAM rest : Other;\n  END_RESOURCE\n"
+            "  VAR_ACCESS\n    seen : Res.left.x : INT READ_ONLY;\n  END_VAR\n"
+            "END_CONFIGURATION\n");
+  EXPECT_EQ(textOf(model, "Global_Variables"), "VAR_GLOBAL\n  start : BOOL;\nEND_VAR\n");
+  EXPECT_TRUE(model.tasks.empty());
+}
+
+TEST(PlcOpen, KeepsBlocksOfAListApart) {
+  const Model model = read(project(
+      "", "",
+      "<configuration name=\"Plc\"><resource name=\"App\"><globalVars name=\"GVL\" "
+      "constant=\"true\"><variable name=\"kMax\"><type><INT/></type></variable>"
+      "<addData><data name=\"a\" handleUnknown=\"implementation\"><Attributes><Attribute "
+      "Name=\"qualified_only\" Value=\"\"/></Attributes></data>"
+      "<data name=\"b\" handleUnknown=\"implementation\"><MixedAttrsVarList>"
+      "<globalVars name=\"GVL\"><variable name=\"x\"><type><REAL/></type></variable></globalVars>"
+      "<globalVars name=\"GVL\" constant=\"true\"><variable name=\"KMAX\"><type><INT/></type>"
+      "</variable></globalVars></MixedAttrsVarList></data></addData></globalVars></resource>"
+      "</configuration>"));
+  EXPECT_EQ(textOf(model, "GVL"),
+            "{attribute 'qualified_only'}\nVAR_GLOBAL\n  x : REAL;\nEND_VAR\n\n"
+            "{attribute 'qualified_only'}\nVAR_GLOBAL CONSTANT\n  KMAX : INT;\nEND_VAR\n");
+}
+
+TEST(PlcOpen, SaysWhatItDoesNotKnow) {
+  const Model model = read(project(
+      "<dataType name=\"no name\"><baseType><INT/></baseType></dataType>",
+      "<pou name=\"P\" pouType=\"program\"><interface/>\n<colour/><colour/>" + body("x;") +
+          "\n<addData><data name=\"http://vendor/page\" handleUnknown=\"discard\"><Page/></data>"
+          "</addData></pou>\n<pou name=\"Q\" pouType=\"program\"><interface/><body><FBD/></body>"
+          "</pou>"));
+  EXPECT_EQ(remarks(model.leftOut),
+            "5: type `no name`: its name is no identifier\n"
+            "8: Q: its body is drawn (FBD)\n"
+            "6: element colour in pou: its meaning is not known here (2 in this file)\n"
+            "7: addData http://vendor/page of pou: its meaning is not known here\n");
+  EXPECT_EQ(textOf(model, "Q"), "PROGRAM Q\n\n{error 'body not imported: FBD'}\nEND_PROGRAM\n");
+}
+
+TEST(PlcOpen, RefusesWhatIsNoProject) {
+  const Model broken = read("<project>\n<types>\n</project>\n");
+  ASSERT_EQ(broken.unreadable.size(), 1U);
+  EXPECT_EQ(broken.unreadable.front().origin.line, 3U);
+  const Model other = read("<?xml version='1.0'?>\n<html/>\n");
+  ASSERT_EQ(other.unreadable.size(), 1U);
+  EXPECT_EQ(other.unreadable.front().origin.line, 2U);
+  EXPECT_TRUE(other.objects.empty());
+}
+
+TEST(PlcOpen, KnowsItsNamespaces) {
+  for (const char *name : {"tc6.xsd", "tc6_0200", "tc6_0201"})
+    EXPECT_TRUE(stc::import::isPlcOpen(
+        fmt::format("<project xmlns=\"http://www.plcopen.org/xml/{}\">", name)));
+  EXPECT_FALSE(stc::import::isPlcOpen("<project xmlns=\"http://maven.apache.org/POM/4.0.0\"/>"));
+}
+
+} // namespace
