@@ -1,38 +1,46 @@
 // Bodies of PLCopen XML: text is taken as it is, charts become textual SFC.
 #include "compiler/import/drawn_bodies.hpp"
-#include "compiler/import/exp_lines.hpp"
 #include "compiler/import/networks/plcopen_networks.hpp"
 #include "compiler/import/networks/print.hpp"
 #include "compiler/import/plcopen_context.hpp"
 
+#include <sstream>
 #include <utility>
-#include <vector>
+
+#include <fmt/format.h>
 
 namespace stc::import::plcopen {
 
 namespace {
 
-/// A body that is drawn: CODESYS puts a CFC into the body's addData.
-Node drawing(const Node &body) {
-  for (const Extra &each : extrasOf(body))
-    if (localName(each.element) == "CFC")
-      return each.element;
-  return {};
+/// A name for the file that keeps what cannot be translated.
+std::string keptNameOf(const std::string &object, size_t line) {
+  std::string name = fmt::format("{}_{}", object, line);
+  for (char &c : name)
+    if (!isName(std::string("_") + c))
+      c = '_';
+  return name;
 }
 
-/// The mark of a drawing: what the blocks in it declare may stand further on in the file.
-std::string drawnBody(Context &context, const Node &body, const Node &drawn,
-                      const std::string &object) {
+/// The line that stands for a drawing until everything is declared that it may name.
+std::string drawingText(Context &context, const Node &body, const Node &drawing,
+                        const std::string &object) {
   std::vector<networks::Problem> problems;
-  networks::Body read = networks::readPlcOpenBody(
+  networks::Body content = networks::readPlcOpenBody(
       body, [&](const Node &node) { return context.originOf(node).line; }, problems);
-  return markDrawnBody(context.model(), context.originOf(drawn), object,
-                       std::string(localName(drawn)),
-                       [read = std::move(read), problems](const networks::Scope &scope) {
-                         networks::Translation result;
-                         result.problems = problems;
-                         return result.ok() ? networks::translated(read, scope) : result;
-                       });
+  std::ostringstream kept;
+  drawing.print(kept, "  ");
+  const Origin origin = context.originOf(drawing);
+  return markDrawnBody(
+      context.model(), origin, object, std::string(localName(drawing)),
+      [content = std::move(content), problems = std::move(problems)](const networks::Scope &scope) {
+        if (problems.empty())
+          return networks::translated(content, scope);
+        networks::Translation refused;
+        refused.problems = problems;
+        return refused;
+      },
+      {keptNameOf(object, origin.line), kept.str()});
 }
 
 } // namespace
@@ -56,11 +64,9 @@ std::string bodyText(Context &context, const Node &body, const Node &pou, const 
       text += linesOf(each);
     else if (kind == "SFC")
       text += chartText(context, each, pou, object, members);
-    else if (kind == "FBD" || kind == "LD")
-      text += drawnBody(context, body, each, object);
   }
-  if (const Node drawn = drawing(body))
-    text += drawnBody(context, body, drawn, object);
+  if (const Node drawing = networks::drawingIn(body))
+    text += drawingText(context, body, drawing, object);
   return comment + text;
 }
 

@@ -159,6 +159,13 @@ void readInstances(Context &context, const Node &instances);
 /// A duration of XML (`PT0.05S`) or a number with its unit as a TIME literal; others as they are.
 [[nodiscard]] std::string durationText(const std::string &text, const std::string &unit = {});
 
+// ---- plcopen_devices.cpp
+
+/// A drive of the device tree, or a line of the report about another device.
+void readDevice(Context &context, const Node &configuration, std::vector<DriveSetup> &drives);
+/// Puts all of them on a bus of simulated drives; `task`: of their group, or empty.
+void addDrives(Context &context, std::vector<DriveSetup> drives, const std::string &task);
+
 // ---- plcopen_reader.cpp
 
 /// What stands in addData of a project or resource: POUs, types, interfaces, lists, libraries.

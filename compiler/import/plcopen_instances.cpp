@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -207,6 +208,7 @@ public:
   void finish() {
     if (inSource_)
       return;
+    addDrives(context_, std::move(drives_), motionTask());
     const bool whole = needsConfiguration(resources_) || !lists_.empty();
     if (!whole) {
       for (Resource &resource : resources_)
@@ -233,11 +235,12 @@ private:
     context_.leaveOutUnknownExtras(node,
                                    {"Device", "configurations", "ExplicitConnector", "InSource"});
     inSource_ = inSource_ || isInSource(node);
+    readDevice(context_, node, drives_);
     if (!first_ || (children(node, "resource").size() > 0 && name_.empty())) {
       first_ = node;
       name_ = isName(name) ? name : "Config";
     } else if (!children(node, "resource").empty()) {
-      context_.changed(node, "configuration " + name, "its resources went to " + name_);
+      context_.changed(node, "configuration " + name, "its resources stand beside those of " + name_);
     }
     for (const Node &each : children(node, "globalVars"))
       readGlobals(context_, each, "Global_Variables");
@@ -266,6 +269,19 @@ private:
     resources_.push_back(std::move(resource));
   }
 
+  /// Where drives are to be moved; empty: there is only one task, or none.
+  [[nodiscard]] std::string motionTask() const {
+    size_t count = 0;
+    std::string first;
+    for (const Resource &resource : resources_)
+      for (const ResourceTask &each : resource.tasks) {
+        ++count;
+        if (first.empty() && !each.task.interval.empty())
+          first = each.task.name;
+      }
+    return count > 1 ? first : std::string();
+  }
+
   /// A CONFIGURATION cannot say them.
   void reportWatchdogs() {
     for (const Resource &resource : resources_)
@@ -279,6 +295,7 @@ private:
 
   Context &context_;
   std::vector<Resource> resources_;
+  std::vector<DriveSetup> drives_;
   std::string lists_;
   bool inSource_ = false; ///< the file has the CONFIGURATION as text
   std::string name_;

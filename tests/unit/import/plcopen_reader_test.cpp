@@ -1,4 +1,5 @@
 // PLCopen XML: what becomes of types, POUs, tasks, and of what is not known.
+#include "compiler/import/drawn_bodies.hpp"
 #include "compiler/import/plcopen_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -198,6 +199,40 @@ TEST(PlcOpen, MakesAConfigurationOfInstances) {
   EXPECT_TRUE(model.tasks.empty());
 }
 
+TEST(PlcOpen, MakesDrivesOfTheDeviceTree) {
+  const auto device = [](const std::string &name, const std::string &parameters) {
+    return fmt::format("<configuration name=\"{}\"><addData><data name=\"Device\" "
+                       "handleUnknown=\"discard\"><Device><DeviceType><Connector>"
+                       "<HostParameterSet>{}</HostParameterSet></Connector></DeviceType></Device>"
+                       "</data></addData></configuration>",
+                       name, parameters);
+  };
+  const auto parameter = [](const std::string &name, const std::string &value) {
+    return fmt::format("<Parameter><Value>{}</Value><Name>{}</Name></Parameter>", value, name);
+  };
+  const Model model = read(project(
+      "", "",
+      device("Lift", parameter("dwRatioTechUnitsDenom", "160") + parameter("fSWMaxJerk", "8.5e3") +
+                         parameter("fSWMaxVelocity", "fast") + parameter("Colour", "3")) +
+          device("Coupler", parameter("Modulecode", "16#8401")) + device("Empty", "") +
+          device("Belt", parameter("IRATIOTECHUNITSNUM", "9"))));
+  ASSERT_EQ(model.buses.size(), 1U);
+  ASSERT_EQ(model.buses[0].groups.size(), 1U);
+  const auto &drives = model.buses[0].groups[0].drives;
+  ASSERT_EQ(drives.size(), 2U);
+  EXPECT_EQ(drives[0].name, "Lift");
+  ASSERT_EQ(drives[0].parameters.size(), 3U);
+  EXPECT_EQ(drives[0].parameters[1].key, "dwRatioTechUnitsDenom");
+  EXPECT_EQ(drives[0].parameters[1].value, "160");
+  EXPECT_EQ(drives[0].parameters[2].value, "8.5e3");
+  EXPECT_EQ(drives[1].parameters[0].value, "2"); // wDriveId
+  EXPECT_EQ(drives[1].parameters[1].key, "iRatioTechUnitsNum");
+  EXPECT_EQ(remarks(model.leftOut),
+            "6: drive Lift: 2 other parameters of it\n"
+            "6: device Coupler: 1 parameters of the hardware; devices are configured in "
+            "stride.toml\n");
+}
+
 TEST(PlcOpen, KeepsBlocksOfAListApart) {
   const Model model = read(project(
       "", "",
@@ -224,10 +259,23 @@ TEST(PlcOpen, SaysWhatItDoesNotKnow) {
           "</pou>"));
   EXPECT_EQ(remarks(model.leftOut),
             "5: type `no name`: its name is no identifier\n"
-            "8: Q: its body is drawn (FBD)\n"
             "6: element colour in pou: its meaning is not known here (2 in this file)\n"
             "7: addData http://vendor/page of pou: its meaning is not known here\n");
-  EXPECT_EQ(textOf(model, "Q"), "PROGRAM Q\n\n{error 'body not imported: FBD'}\nEND_PROGRAM\n");
+}
+
+TEST(PlcOpen, GivesDrawnBodiesToTheTranslation) {
+  Model model = read(project(
+      "", "<pou name=\"Q\" pouType=\"program\"><interface><localVars>"
+          "<variable name=\"a\"><type><INT/></type></variable>"
+          "<variable name=\"b\"><type><INT/></type></variable></localVars></interface>"
+          "<body><FBD><inVariable localId=\"1\"><expression>a</expression></inVariable>"
+          "<outVariable localId=\"2\"><connectionPointIn><connection refLocalId=\"1\"/>"
+          "</connectionPointIn><expression>b</expression></outVariable></FBD></body></pou>"));
+  ASSERT_EQ(model.drawn.size(), 1U);
+  stc::import::translateDrawnBodies(model, {});
+  EXPECT_EQ(textOf(model, "Q"), "PROGRAM Q\nVAR\n  a : INT;\n  b : INT;\nEND_VAR\n\nb := a;\n"
+                                "END_PROGRAM\n");
+  EXPECT_EQ(remarks(model.leftOut), "");
 }
 
 TEST(PlcOpen, RefusesWhatIsNoProject) {

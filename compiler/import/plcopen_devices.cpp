@@ -1,0 +1,90 @@
+// The device tree of CODESYS V3 in PLCopen XML: drives become simulated ones.
+#include "compiler/import/exp_lines.hpp"
+#include "compiler/import/plcopen_context.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+namespace stc::import::plcopen {
+
+namespace {
+
+/// Parameters of drives of CODESYS V3 that have the names of those of stride.toml.
+constexpr std::array<std::string_view, 6> kDriveParameters = {
+    "dwRatioTechUnitsDenom", "iRatioTechUnitsNum", "fSWMaxVelocity",
+    "fSWMaxAcceleration",    "fSWMaxDeceleration", "fSWMaxJerk"};
+
+/// All elements Parameter below a device.
+void collectParameters(const Node &node, std::vector<Node> &out) {
+  for (const Node &each : children(node))
+    if (localName(each) == "Parameter")
+      out.push_back(each);
+    else
+      collectParameters(each, out);
+}
+
+bool isNumber(const std::string &text) {
+  char *end = nullptr;
+  (void)std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0';
+}
+
+} // namespace
+
+void readDevice(Context &context, const Node &configuration, std::vector<DriveSetup> &drives) {
+  std::vector<Node> parameters;
+  collectParameters(extra(configuration, "Device"), parameters);
+  if (parameters.empty())
+    return;
+  const std::string name = attribute(configuration, "name");
+  DriveSetup drive;
+  drive.name = name;
+  drive.origin = context.originOf(configuration);
+  for (const Node &each : parameters) {
+    const std::string key = textOf(child(each, "Name"));
+    const std::string value(trimmed(textOf(child(each, "Value"))));
+    const auto *const known =
+        std::find_if(kDriveParameters.begin(), kDriveParameters.end(),
+                     [&](std::string_view parameter) { return sameName(parameter, key); });
+    if (known != kDriveParameters.end() && isNumber(value))
+      drive.parameters.push_back({std::string(*known), value, Certainty::Guessed,
+                                  "the drive of CODESYS V3, whose units may be others"});
+  }
+  const size_t others = parameters.size() - drive.parameters.size();
+  if (drive.parameters.empty() || !isName(name)) {
+    context.leftOut(configuration, fmt::format("device {}", name),
+                    fmt::format("{} parameters of the hardware; devices are configured in "
+                                "stride.toml",
+                                parameters.size()));
+    return;
+  }
+  drive.parameters.insert(drive.parameters.begin(),
+                          {"wDriveId", fmt::format("{}", drives.size() + 1), Certainty::Guessed,
+                           "its order"});
+  if (others != 0)
+    context.leftOut(configuration, fmt::format("drive {}", name),
+                    fmt::format("{} other parameters of it", others));
+  drives.push_back(std::move(drive));
+}
+
+void addDrives(Context &context, std::vector<DriveSetup> drives, const std::string &task) {
+  if (drives.empty())
+    return;
+  DriveGroupSetup group;
+  group.name = "Axes";
+  group.origin = drives.front().origin;
+  if (!task.empty())
+    group.parameters.push_back({"sTask", "\"" + task + "\"", Certainty::Guessed,
+                                "the first task with an interval"});
+  group.drives = std::move(drives);
+  BusSetup bus;
+  bus.name = "SoftMotion";
+  bus.origin = group.origin;
+  bus.groups.push_back(std::move(group));
+  context.model().buses.push_back(std::move(bus));
+}
+
+} // namespace stc::import::plcopen
