@@ -14,6 +14,10 @@ using namespace ast;
 
 namespace {
 
+constexpr std::string_view kTextLibrary = "Standard";
+constexpr std::string_view kTextFunctions[] = {"concat", "delete", "find",    "insert", "left",
+                                               "len",    "mid",    "replace", "right"};
+
 /// Names of that file are seen in the scope without the library's name: also those of one of
 /// Stride's libraries that the project has asked for.
 bool isSeenUnqualified(const Scope &scope, const LibraryIndex::Entry &entry) {
@@ -212,6 +216,10 @@ Symbol *Lookup::inLibrary(Ident library, Ident id) {
     if (const auto list = found.lists.find(id); list != found.lists.end())
       return list->second;
   }
+  // Functions for texts are built in here; elsewhere they are those of a library.
+  if (index_.answersTo(kTextLibrary, library->lower) &&
+      std::ranges::find(kTextFunctions, id->lower) != std::end(kTextFunctions))
+    return builtins_.at(id);
   return index_.answersTo(kCamTableLibrary, library->lower) ? declareCamTable(id) : nullptr;
 }
 
