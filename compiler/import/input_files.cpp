@@ -1,10 +1,13 @@
 #include "compiler/import/input_files.hpp"
 
 #include "compiler/import/encoding.hpp"
+#include "compiler/import/exp_lines.hpp"
 #include "compiler/import/reader.hpp"
 #include "compiler/source/read_source.hpp"
+#include "runtime/common/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -18,6 +21,47 @@ namespace stc::import {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// Formats with a file per object, whose folders are those of the project.
+constexpr std::array<std::string_view, 7> kFilePerObject = {".tcpou", ".tcdut", ".tcgvl", ".tcio",
+                                                            ".scl",   ".udt",   ".db"};
+
+bool isFilePerObject(const Object &object) {
+  const std::string extension =
+      stride::common::lowerCase(fs::path(object.origin.file).extension().string());
+  return object.folder.empty() &&
+         std::ranges::find(kFilePerObject, extension) != kFilePerObject.end();
+}
+
+/// Names of the folders that a file lies in.
+std::vector<std::string> foldersAbove(const std::string &file) {
+  std::vector<std::string> names;
+  for (const fs::path &part : fs::path(file).lexically_normal().parent_path())
+    names.push_back(part.string());
+  return names;
+}
+
+/// Folders of files become folders of the project, from where they differ.
+void placeByFolders(Model &model) {
+  std::optional<std::vector<std::string>> common;
+  for (const Object &object : model.objects) {
+    if (!isFilePerObject(object))
+      continue;
+    const std::vector<std::string> folders = foldersAbove(object.origin.file);
+    if (!common)
+      common = folders;
+    common->resize(
+        static_cast<size_t>(std::ranges::mismatch(*common, folders).in1 - common->begin()));
+  }
+  for (Object &object : model.objects) {
+    if (!isFilePerObject(object))
+      continue;
+    const std::vector<std::string> folders = foldersAbove(object.origin.file);
+    for (size_t i = common->size(); i < folders.size(); ++i)
+      for (std::string &each : foldersOf("\\/" + folders[i]))
+        object.folder.push_back(std::move(each));
+  }
+}
 
 /// Exports with pictures are longer than sources may be.
 constexpr size_t kMostBytes = size_t{256} << 20U;
@@ -37,6 +81,22 @@ public:
     }
     if (isNew(path))
       read(path);
+  }
+
+  /// Files that projects name. They may name further ones.
+  void addReferences() {
+    for (; followed_ < model_.references.size(); ++followed_) {
+      const FileReference reference = model_.references[followed_];
+      const std::string path =
+          (fs::path(reference.origin.file).parent_path() / reference.path).lexically_normal();
+      std::error_code error;
+      if (!hasKnownExtension(path))
+        continue;
+      if (!fs::is_regular_file(path, error))
+        model_.leftOut.push_back({reference.origin, reference.path, "the file is not there"});
+      else if (isNew(path))
+        read(path);
+    }
   }
 
 private:
@@ -113,6 +173,7 @@ private:
   const std::string &encoding_;
   Model &model_;
   std::set<std::pair<dev_t, ino_t>> seen_;
+  size_t followed_ = 0;              ///< references that have been read
   std::vector<std::string> foreign_; ///< known, but not read: named when nothing else is there
 };
 
@@ -123,6 +184,8 @@ Model readFiles(const std::vector<std::string> &paths, const std::string &encodi
   FileReader reader(encoding, model);
   for (const std::string &path : paths)
     reader.add(path);
+  reader.addReferences();
+  placeByFolders(model);
   return model;
 }
 

@@ -139,6 +139,19 @@ struct MovedAddress {
   std::string to;   ///< `%IX0.0`
 };
 
+/// A file that belongs to a project as well: it is read when it exists and has not been read.
+struct FileReference {
+  std::string path; ///< with `/`, from the folder of the file that names it
+  Origin origin;
+};
+
+/// Which drive a variable of the program stands for, where the tool keeps both apart.
+struct AxisLink {
+  std::string variable; ///< `MAIN.Feed`
+  std::string drive;    ///< as DriveSetup::name
+  Origin origin;
+};
+
 /// All files of one import.
 struct Model {
   size_t files = 0;                         ///< that were read
@@ -152,6 +165,9 @@ struct Model {
   std::vector<HardwareChannel> hardware; ///< in the order of the configuration
   std::vector<MovedAddress> addresses;
   std::string addressing; ///< [image] addressing of stride.toml; empty: not said
+  std::vector<FileReference> references;
+  std::vector<AxisLink> axisLinks;
+  std::vector<std::string> named; ///< Stride's libraries that stride.toml must name
   std::vector<KeptText> kept;
   std::optional<size_t> configuration; ///< which of `kept` is the PLC configuration that was read
   std::vector<DrawnBody> drawn; ///< marks in the objects' texts

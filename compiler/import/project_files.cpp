@@ -122,6 +122,9 @@ std::string tomlOf(const Model &model, const ProjectSettings &settings) {
     text += "version = \"1.0.0\"\n";
   if (!model.addressing.empty())
     text += fmt::format("\n[image]\naddressing = {}\n", tomlText(model.addressing));
+  for (const std::string &name : model.named)
+    text += fmt::format("\n[[{}]]\nname = {}\n", settings.library ? "library.uses" : "library",
+                        tomlText(name));
   if (settings.library)
     return text;
   for (const Task &task : model.tasks)
@@ -147,6 +150,15 @@ std::string variablesOf(const std::vector<IoChannel> &channels) {
   return text + "END_VAR\n";
 }
 
+/// Binds variables to the drives that they stand for.
+std::string bindingsOf(const std::vector<AxisLink> &links) {
+  std::string text = "// Which drive an axis of the program stands for.\nVAR_CONFIG\n";
+  for (const AxisLink &each : links)
+    text += fmt::format("  {}.pDrive : POINTER TO SM_DriveBasic.AXIS_REF := ADR({});\n",
+                        each.variable, each.drive);
+  return text + "END_VAR\n";
+}
+
 } // namespace
 
 std::string tomlText(std::string_view text) {
@@ -168,6 +180,8 @@ std::vector<ProjectFile> projectFiles(const Model &model, const ProjectSettings 
     files.push_back({pathOf(object, taken), object.text});
   if (!model.channels.empty())
     files.push_back({freePath("Inputs_Outputs", ".st", taken), variablesOf(model.channels)});
+  if (!model.axisLinks.empty() && !settings.library)
+    files.push_back({freePath("Axis_Links", ".st", taken), bindingsOf(model.axisLinks)});
   for (const KeptText &kept : model.kept)
     files.push_back({freePath(kKeptFolder + fileNameOf(kept.path), ".txt", taken), kept.text});
   files.push_back({"stride.toml", tomlOf(model, settings)});

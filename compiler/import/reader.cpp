@@ -1,7 +1,10 @@
 #include "compiler/import/reader.hpp"
 
+#include "compiler/import/codesys_export_reader.hpp"
 #include "compiler/import/exp_reader.hpp"
 #include "compiler/import/plcopen_reader.hpp"
+#include "compiler/import/scl_reader.hpp"
+#include "compiler/import/twincat_reader.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -26,10 +29,16 @@ bool isExp(std::string_view text) {
   });
 }
 
+constexpr std::string_view kTwinCatFiles =
+    ".tcpou .tcdut .tcgvl .tcio .tctto .plcproj .tsproj .xti .tcvis .tcvmo .tctlo .tcgtlo .tcipo";
+
 // A format is added here.
-constexpr std::array<Format, 2> kFormats = {{
+constexpr std::array<Format, 5> kFormats = {{
     {"CoDeSys V2.3 export", ".exp", isExp, readExp},
     {"PLCopen XML", ".xml", isPlcOpen, readPlcOpen},
+    {"TwinCAT 3", kTwinCatFiles, isTwinCat, readTwinCat},
+    {"CODESYS V3 export", ".export", isCodesysExport, readCodesysExport},
+    {"Siemens SCL", ".scl .udt .db", isScl, readScl},
 }};
 
 /// Files of project tools that hold no text to read.

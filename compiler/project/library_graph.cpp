@@ -20,6 +20,9 @@ fs::path absoluteFrom(const char *variable) {
   return value != nullptr && *value == '/' ? fs::path(value) : fs::path();
 }
 
+/// Libraries of Stride that stand in for those of TwinCAT.
+constexpr std::string_view kOtherSystems = "Tc2_";
+
 std::string listed(const std::vector<std::string> &names) {
   std::string all;
   for (const std::string &name : names)
@@ -123,6 +126,9 @@ std::optional<LibrarySource::Use> LibraryGraph::use(const LibraryUse &wanted,
   }
   if (const std::optional<std::string> standard = standardLibrary(wanted)) {
     takeLibraryValues(program_, wanted, *standard);
+    // Its names are those of Stride's own blocks: they hide these where they are asked for.
+    if (by == nullptr && standard->starts_with(kOtherSystems))
+      return LibrarySource::Use{*standard, *standard};
     return std::nullopt;
   }
   const std::optional<fs::path> folder = folderOf(wanted, by);

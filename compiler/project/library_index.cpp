@@ -7,8 +7,11 @@
 namespace stc {
 
 /// Whether the library's names need its name in front: they are words that programs use themselves
-/// (Line, Bound). As in SoftMotion 3.
-static bool isQualifiedOnly(const EmbeddedFile &file) { return file.library == "SM3_CamBuilder"; }
+/// (Line, Bound), as in SoftMotion 3, or names of other libraries with other meanings.
+static bool isQualifiedOnly(const EmbeddedFile &file) {
+  static constexpr std::string_view kLibraries[] = {"SM3_CamBuilder", "Tc2_MC2", "Tc2_System"};
+  return std::ranges::find(kLibraries, file.library) != std::end(kLibraries);
+}
 
 static LibraryIndex::Entry entryOf(const EmbeddedFile &file) {
   return {file.library, file.fileName, file.text, isQualifiedOnly(file)};
@@ -40,7 +43,7 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
     std::string_view lowerName;
     std::string_view library;
   };
-  static constexpr OtherName kSoftMotion3[] = {
+  static constexpr OtherName kOtherNames[] = {
       {"sm3_basic", "SM_DriveBasic"},
       {"sm3_basic", "SM_PLCopen"},
       {"sm3_basic", "SM_FileFBs"},
@@ -54,9 +57,10 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
       {"trafo", "SM_Trafo"},
       {"trafo", "SM3_Transformation"},
       {"sm3_commonpublic", "SM3_Robotics"},
+      {"tc2_standard", "Standard"},
   };
   return equalIgnoringCase(library, lowerName) ||
-         std::any_of(std::begin(kSoftMotion3), std::end(kSoftMotion3), [&](const OtherName &other) {
+         std::any_of(std::begin(kOtherNames), std::end(kOtherNames), [&](const OtherName &other) {
            return other.lowerName == lowerName && other.library == library;
          });
 }

@@ -126,10 +126,14 @@ void FileParser::readHeadType() {
     }
   }
   const auto bracketed = [this](uint16_t closer) {
-    while (now_.type != closer && now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit())
+    const uint16_t opener = now_.type;
+    take();
+    for (size_t open = 1;
+         open != 0 && now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit();) {
+      open += now_.type == opener ? 1U : 0U; // INT(0..(Top - 1))
+      open -= now_.type == closer ? 1U : 0U;
       take();
-    if (now_.type == closer)
-      take();
+    }
   };
   if (now_.type == Tok::STRING || now_.type == Tok::WSTRING) {
     take();

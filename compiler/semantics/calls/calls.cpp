@@ -37,6 +37,14 @@ static const Type *notCallable(Context &c, CallExpr *expr, std::string message) 
   return checkArguments(c, expr);
 }
 
+static const Type *callBuiltin(Context &c, CallExpr *expr, Symbol *symbol) {
+  expr->resolved = Callee::Builtin;
+  expr->builtin = static_cast<BuiltinSymbol *>(symbol)->id;
+  const Type *result = checkBuiltin(c, expr, nullptr);
+  foldCall(c, expr, result);
+  return result;
+}
+
 /// What a plain name calls; null: a value, or a built-in function, whose call then has the type
 /// `result`.
 static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) {
@@ -57,10 +65,7 @@ static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) 
   }
   if (symbol->kind == SymbolKind::Builtin) {
     name->symbol = symbol;
-    expr->resolved = Callee::Builtin;
-    expr->builtin = static_cast<BuiltinSymbol *>(symbol)->id;
-    result = checkBuiltin(c, expr, nullptr);
-    foldCall(c, expr, result);
+    result = callBuiltin(c, expr, symbol);
     return nullptr;
   }
   if (symbol->kind != SymbolKind::Pou)
@@ -69,10 +74,17 @@ static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) 
   return static_cast<PouSymbol *>(symbol);
 }
 
-/// What `Library.Name` or `Space.Name` calls; null: nothing that belongs to a namespace.
-static PouSymbol *calledInNamespace(Context &c, MemberExpr *member) {
+/// What `Library.Name` or `Space.Name` calls; null: nothing that belongs to a namespace, or a
+/// built-in function, whose call then has the type `result`.
+static PouSymbol *calledInNamespace(Context &c, CallExpr *expr, const Type *&result) {
+  auto *member = as<MemberExpr>(expr->callee);
   Symbol *space = resolveNamespace(c, member->base);
   Symbol *symbol = space == nullptr ? nullptr : nameInSpace(c, space, member->name);
+  if (symbol != nullptr && symbol->kind == SymbolKind::Builtin) {
+    member->symbol = symbol;
+    result = callBuiltin(c, expr, symbol);
+    return nullptr;
+  }
   if (symbol == nullptr || symbol->kind != SymbolKind::Pou)
     return nullptr;
   member->symbol = symbol;
@@ -187,7 +199,7 @@ const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
   if (callee->kind == ExprKind::Name)
     pou = calledByName(c, expr, result);
   else if (callee->kind == ExprKind::Member && as<MemberExpr>(callee)->bit < 0)
-    pou = calledInNamespace(c, as<MemberExpr>(callee));
+    pou = calledInNamespace(c, expr, result);
   if (pou != nullptr && (pou->isBlock() || pou->isInterface()))
     return reportTypeCalled(c, expr, pou);
   if (pou != nullptr && pou->isMethod()) {

@@ -6,15 +6,26 @@
 #include "compiler/semantics/cam_tables.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
+#include <algorithm>
+
 namespace stc {
 
 using namespace ast;
 
 namespace {
 
-/// Names of that file are seen in the scope without the library's name.
+constexpr std::string_view kTextLibrary = "Standard";
+constexpr std::string_view kTextFunctions[] = {"concat", "delete", "find",    "insert", "left",
+                                               "len",    "mid",    "replace", "right"};
+
+/// Names of that file are seen in the scope without the library's name: also those of one of
+/// Stride's libraries that the project has asked for.
 bool isSeenUnqualified(const Scope &scope, const LibraryIndex::Entry &entry) {
-  return !entry.qualifiedOnly || scope.module->library->name == entry.library;
+  const Library &here = *scope.module->library;
+  return !entry.qualifiedOnly || here.name == entry.library ||
+         std::ranges::any_of(here.uses, [&](const UsedLibrary &used) {
+           return !used.library->isOwn && used.library->name == entry.library;
+         });
 }
 
 FoundEnumerator
@@ -98,7 +109,7 @@ Symbol *Lookup::listOfLibraries(const Scope &scope, Ident id) const {
   for (const UsedLibrary &own : scope.module->library->uses) {
     const Module &library = *modules_.at(own.library->name);
     const auto found = library.lists.find(id);
-    if (!own.library->qualifiedOnly && found != library.lists.end())
+    if (own.library->isOwn && !own.library->qualifiedOnly && found != library.lists.end())
       return found->second;
   }
   for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
@@ -205,6 +216,10 @@ Symbol *Lookup::inLibrary(Ident library, Ident id) {
     if (const auto list = found.lists.find(id); list != found.lists.end())
       return list->second;
   }
+  // Functions for texts are built in here; elsewhere they are those of a library.
+  if (index_.answersTo(kTextLibrary, library->lower) &&
+      std::ranges::find(kTextFunctions, id->lower) != std::end(kTextFunctions))
+    return builtins_.at(id);
   return index_.answersTo(kCamTableLibrary, library->lower) ? declareCamTable(id) : nullptr;
 }
 
@@ -243,7 +258,7 @@ FoundEnumerator Lookup::enumerator(const Scope &scope, Ident id, const Type *exp
 FoundEnumerator Lookup::enumeratorOfLibraries(const Scope &scope, Ident id) {
   FoundEnumerator own;
   for (const UsedLibrary &used : scope.module->library->uses) {
-    if (used.library->qualifiedOnly)
+    if (used.library->qualifiedOnly || !used.library->isOwn)
       continue;
     const auto found = enumeratorOf(modules_.at(used.library->name)->enumerators, id);
     if (found.enumerator == nullptr)
