@@ -80,6 +80,8 @@ constexpr std::array<TypeOfObject, 34> kTypes = {{
     {"e9159722-55bc-49e5-8034-fbd278ef718f", Kind::LeftOut, "SoftMotion axis pool"},
 }};
 
+constexpr std::string_view kPersistent = "261bd6e6-249c-4232-bb6f-84c2fbeef430";
+
 /// An object of the dump.
 struct Entry {
   pugi::xml_node object; ///< what it is made of
@@ -279,8 +281,26 @@ private:
       return leaveOut(entry, "it holds no text");
     if (text.back() != '\n')
       text += '\n';
+    if (entry.typeGuid == kPersistent)
+      text = withoutPaths(entry, text);
     model_.objects.push_back(
         {kind, entry.name, foldersOf(entry), std::move(text), originOf(entry)});
+  }
+
+  /// A list of persistent variables names variables of other POUs by their paths, too.
+  std::string withoutPaths(const Entry &entry, const std::string &text) {
+    std::string out;
+    for (const std::string_view line : linesOf(text)) {
+      const std::string_view code = trimmed(line);
+      const std::string_view name = wordAt(code, 0);
+      const bool path = !name.empty() && code.substr(name.size()).starts_with('.');
+      if (path)
+        leaveOut(entry, fmt::format("`{}` is not persistent here: declare it with RETAIN where it "
+                                    "stands",
+                                    trimmed(code.substr(0, code.find(':')))));
+      out += fmt::format("{}{}\n", path ? "// " : "", line);
+    }
+    return out;
   }
 
   void addLibraries(const Entry &entry) {

@@ -79,6 +79,18 @@ TEST(CodesysExportReader, TakesGlobalVariables) {
   EXPECT_EQ(model.objects[0].text, "VAR_GLOBAL\nEND_VAR\n");
 }
 
+TEST(CodesysExportReader, TakesPathsOutOfPersistentLists) {
+  const Model model =
+      read(entry("1", "0", "Keep", "261bd6e6-249c-4232-bb6f-84c2fbeef430",
+                 blob("Interface", "VAR_GLOBAL PERSISTENT RETAIN\n  n : INT;\n  MAIN.fb.x : BOOL;\n"
+                                   "END_VAR")));
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(model.objects[0].text,
+            "VAR_GLOBAL PERSISTENT RETAIN\n  n : INT;\n//   MAIN.fb.x : BOOL;\nEND_VAR\n");
+  ASSERT_EQ(model.leftOut.size(), 1U);
+  EXPECT_NE(model.leftOut[0].text.find("`MAIN.fb.x`"), std::string::npos);
+}
+
 TEST(CodesysExportReader, RefusesGraphicalBodiesByName) {
   const Model model =
       read(entry("1", "0", "Net", kPou,
