@@ -56,17 +56,16 @@ void readDevice(Context &context, const Node &configuration, std::vector<DriveSe
   const size_t others = parameters.size() - drive.parameters.size();
   if (drive.parameters.empty() || !isName(name)) {
     context.leftOut(configuration, fmt::format("device {}", name),
-                    fmt::format("{} parameters of the hardware; devices are configured in "
-                                "stride.toml",
+                    fmt::format("its parameters ({}): hardware is configured in stride.toml",
                                 parameters.size()));
     return;
   }
-  drive.parameters.insert(drive.parameters.begin(),
-                          {"wDriveId", fmt::format("{}", drives.size() + 1), Certainty::Guessed,
-                           "its order"});
+  drive.parameters.insert(
+      drive.parameters.begin(),
+      {"wDriveId", fmt::format("{}", drives.size() + 1), Certainty::Guessed, "its order"});
   if (others != 0)
     context.leftOut(configuration, fmt::format("drive {}", name),
-                    fmt::format("{} other parameters of it", others));
+                    fmt::format("its other parameters ({})", others));
   drives.push_back(std::move(drive));
 }
 
@@ -77,8 +76,8 @@ void addDrives(Context &context, std::vector<DriveSetup> drives, const std::stri
   group.name = "Axes";
   group.origin = drives.front().origin;
   if (!task.empty())
-    group.parameters.push_back({"sTask", "\"" + task + "\"", Certainty::Guessed,
-                                "the first task with an interval"});
+    group.parameters.push_back(
+        {"sTask", "\"" + task + "\"", Certainty::Guessed, "the first task with an interval"});
   group.drives = std::move(drives);
   BusSetup bus;
   bus.name = "SoftMotion";

@@ -240,7 +240,8 @@ private:
       first_ = node;
       name_ = isName(name) ? name : "Config";
     } else if (!children(node, "resource").empty()) {
-      context_.changed(node, "configuration " + name, "its resources stand beside those of " + name_);
+      context_.changed(node, "configuration " + name,
+                       "its resources stand beside those of " + name_);
     }
     for (const Node &each : children(node, "globalVars"))
       readGlobals(context_, each, "Global_Variables");

@@ -228,9 +228,8 @@ TEST(PlcOpen, MakesDrivesOfTheDeviceTree) {
   EXPECT_EQ(drives[1].parameters[0].value, "2"); // wDriveId
   EXPECT_EQ(drives[1].parameters[1].key, "iRatioTechUnitsNum");
   EXPECT_EQ(remarks(model.leftOut),
-            "6: drive Lift: 2 other parameters of it\n"
-            "6: device Coupler: 1 parameters of the hardware; devices are configured in "
-            "stride.toml\n");
+            "6: drive Lift: its other parameters (2)\n"
+            "6: device Coupler: its parameters (1): hardware is configured in stride.toml\n");
 }
 
 TEST(PlcOpen, KeepsBlocksOfAListApart) {
