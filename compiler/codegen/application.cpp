@@ -247,7 +247,8 @@ private:
   }
 
   void init(std::string &out) {
-    out += "\n// Libraries first; constants, global variables, the rest; files by path; as declared.\nvoid "
+    out += "\n// Libraries first; constants, global variables, the rest; files by path; as "
+           "declared.\nvoid "
            "init__(::stride::Ctx *";
     std::string body = copies_.begin();
     if (c_.program.settings.softMotion3)

@@ -16,7 +16,7 @@ using Store = std::map<std::string, bool>; ///< variables and members of instanc
 
 /// What the blocks of the standard library do.
 inline void callBlock(Store &store, const std::string &name, const std::string &type, bool first,
-               bool second) {
+                      bool second) {
   bool &memory = store[name + ".M"];
   if (type == "R_TRIG") {
     store[name + ".Q"] = first && !memory;
