@@ -31,10 +31,6 @@ const PouSymbol *withoutAttribute(const Type *type) {
   return hasAttribute(pou->decl->attributes, AttributeId::EnableDynamicCreation) ? nullptr : pou;
 }
 
-} // namespace
-
-namespace {
-
 /// `__NEW(FB(x := 1), n)` becomes `__NEW(FB, n, x := 1)`: what goes to FB_Init has a `parameter`.
 /// False: it has no list of inputs.
 bool unfoldConstruct(Context &c, CallExpr *expr) {

@@ -37,9 +37,9 @@ public:
   void command(const bus::DriveCommand &command) { command_ = command; }
   /// Without `communication`.
   [[nodiscard]] const bus::DriveStatus &status() const { return status_; }
-  /// Bit n stands for mode n.
   /// What its second encoder shows (S-0-0053), as a counter of 32 bits; 0: it has none. [inc]
   [[nodiscard]] uint32_t secondPosition() const { return seconds_.counter(); }
+  /// Bit n stands for mode n.
   [[nodiscard]] uint8_t controllerModes() const;
   /// It is switched off, whatever the command says: it stops as well as it can.
   void shutDown() { shutDown_ = true; }

@@ -53,10 +53,6 @@ std::string ringFault(const GroupPlan &plan, size_t drives) {
          milliseconds(plan.cycle) + " at " + std::to_string(plan.megabits) + " MBit/s";
 }
 
-} // namespace
-
-namespace {
-
 EncoderPlan encoderPlan(const bus::GroupSetup &setup, const bus::EncoderSetup &encoder) {
   const std::string name = common::lowerCase(encoder.parameters.text("second_of"));
   const auto drive =

@@ -47,6 +47,7 @@ void reset(Motion &motion, const MotionSettings &settings) noexcept {
   motion.asked = motion.wish;
   motion.plan.state = PlanState::Idle;
   motion.cellTime = kLeastCellTime;
+  motion.calm = exact::kInfinity;
 }
 
 bool extend(Motion &motion, const Strip &strip) noexcept {
