@@ -8,7 +8,25 @@ void LssAssignment::begin(const LssOrder &order) {
   go(Step::Wait);
 }
 
-bool LssAssignment::awaits(Step step) { return step >= Step::Serial && step <= Step::Store; }
+bool LssAssignment::awaits(Step step) { return answerTo(step) != 0; }
+
+/// The first byte of the answer to what a step asks; 0: it has none.
+uint8_t LssAssignment::answerTo(Step step) {
+  switch (step) {
+  case Step::Serial:
+    return lss::kSelected;
+  case Step::Inquire:
+    return lss::kInquireNode;
+  case Step::SetNode:
+    return lss::kConfigureNode;
+  case Step::BitRate:
+    return lss::kConfigureBitRate;
+  case Step::Store:
+    return lss::kStore;
+  default:
+    return 0;
+  }
+}
 
 void LssAssignment::go(Step step) {
   step_ = step;
@@ -47,8 +65,9 @@ void LssAssignment::sent() {
     go(static_cast<Step>(static_cast<uint8_t>(step_) + 1));
 }
 
+/// An answer to what was asked before has come too late, and is none to this.
 void LssAssignment::received(const Frame &frame) {
-  if (pending_ || !awaits(step_) || !lss::isAnswer(frame))
+  if (pending_ || !awaits(step_) || !lss::isAnswer(frame) || frame.data[0] != answerTo(step_))
     return;
   answered(&frame);
 }
@@ -82,13 +101,13 @@ void LssAssignment::answered(const Frame *answer) {
   };
   switch (step_) {
   case Step::Serial:
-    if (answer != nullptr && answer->data[0] == lss::kSelected)
+    if (answer != nullptr)
       go(Step::Inquire);
     else
       end(Kind::NotFound);
     break;
   case Step::Inquire:
-    if (answer == nullptr || answer->data[0] != lss::kInquireNode) {
+    if (answer == nullptr) {
       end(Kind::Refused);
       break;
     }

@@ -68,6 +68,7 @@ private:
     Idle,
   };
   [[nodiscard]] static bool awaits(Step step);
+  [[nodiscard]] static uint8_t answerTo(Step step);
   void go(Step step);
   void answered(const Frame *answer);
   void end(LssOutcome::Kind kind);

@@ -11,6 +11,7 @@ namespace {
 constexpr uint32_t kMostMissed = 3;
 constexpr uint32_t kMostLate = 2;
 constexpr double kLssTimeout = 0.5; ///< To store something may take a while. [s]
+constexpr double kBootTime = 2;     ///< Of devices that LSS has reset, at most. [s]
 /// Frames that are read in a cycle, as a multiple of those that are planned.
 constexpr size_t kReserve = 4;
 
@@ -88,12 +89,24 @@ void Master::serveLss() {
     numbered();
   if (lssNode_ == kNobody && resetNmt_ == NmtCommand::None)
     numberNext();
-  const bool busy = lssNode_ != kNobody || resetNmt_ != NmtCommand::None;
+  const bool busy = lssNode_ != kNobody || resetNmt_ != NmtCommand::None ||
+                    std::any_of(nodes_.begin(), nodes_.end(),
+                                [](const Node &node) { return node.wantsNumber(); });
   for (Node &node : nodes_)
     node.setLssBusy(busy);
 }
 
+/// Who is booting does not answer: it may be the next one.
+bool Master::awaitsBootUps() {
+  const bool boots =
+      std::any_of(nodes_.begin(), nodes_.end(), [](const Node &node) { return node.boots(); });
+  toBoot_ = boots && toBoot_ > 0 ? toBoot_ - 1 : 0;
+  return toBoot_ > 0;
+}
+
 void Master::numberNext() {
+  if (awaitsBootUps())
+    return;
   const auto next = std::find_if(nodes_.begin(), nodes_.end(),
                                  [](const Node &node) { return node.wantsNumber(); });
   if (next == nodes_.end())
@@ -108,7 +121,7 @@ void Master::numbered() {
   LssOutcome outcome = lss_.outcome();
   if (outcome.kind == LssOutcome::Kind::Assigned && outcome.before != lss::kNoNode) {
     const bool used = std::any_of(nodes_.begin(), nodes_.end(), [&outcome](const Node &node) {
-      return node.number() == outcome.before && node.started();
+      return node.number() == outcome.before && node.inUse();
     });
     if (used) {
       outcome.kind = LssOutcome::Kind::InUse;
@@ -122,8 +135,13 @@ void Master::numbered() {
 }
 
 void Master::sendLss() {
-  if (resetNmt_ != NmtCommand::None && send(nmtFrame(resetNmt_, resetNode_), SendClass::Service))
+  if (resetNmt_ != NmtCommand::None && send(nmtFrame(resetNmt_, resetNode_), SendClass::Service)) {
     resetNmt_ = NmtCommand::None;
+    toBoot_ = cyclesOf(kBootTime, config_.cycle);
+    for (Node &node : nodes_)
+      if (node.number() == resetNode_)
+        node.resetByLss();
+  }
   if (lss_.pending() && send(lss_.nextFrame(), SendClass::Service))
     lss_.sent();
 }

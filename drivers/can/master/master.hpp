@@ -105,6 +105,7 @@ private:
   void sendPdos();
   void sendCommands();
   void serveLss();
+  bool awaitsBootUps();
   void numberNext();
   void numbered();
   void sendLss();
@@ -136,6 +137,7 @@ private:
   size_t lssNode_ = kNobody;               ///< Who is being given its number.
   NmtCommand resetNmt_ = NmtCommand::None; ///< To be sent to …
   uint8_t resetNode_ = 0;                  ///< … a number that a node had before.
+  uint32_t toBoot_ = 0;                    ///< For so long those are waited for at most. [cycles]
   ControllerState state_ = ControllerState::Active;
   bool syncSeen_ = false;
   bool saidForeign_ = false;

@@ -58,6 +58,9 @@ void Node::numbered(const LssOutcome &outcome, bus::News &news) {
   lss_ = outcome;
   if (outcome.kind != LssOutcome::Kind::Assigned)
     return;
+  if (outcome.before != lss::kNoNode) // it is still to be reset: who has booted so far is another
+    supervision_.clear();
+  boots_ = supervision_.bootUps() == 0;
   const uint32_t number = config_.plan.node;
   if (outcome.before == lss::kNoNode)
     news.say("node ", number, " has got its number by LSS");
@@ -67,6 +70,11 @@ void Node::numbered(const LssOutcome &outcome, bus::News &news) {
     news.say("node ", number, " cannot store its number: it is given to it at each start");
   if (outcome.noBitRate)
     news.say("node ", number, " does not take the bit rate by LSS: it keeps its own setting");
+}
+
+void Node::resetByLss() {
+  supervision_.clear();
+  boots_ = true;
 }
 
 /// FALSE: the frame has another length than it should.
@@ -136,6 +144,7 @@ void Node::beginReceive() { arrived_ = {}; }
 void Node::endReceive(uint32_t syncs, bus::News &news) {
   sdo_.cycle();
   supervision_.cycle();
+  boots_ = boots_ && supervision_.bootUps() == 0;
   if (phase_ != Phase::Started)
     return;
   countPdos(syncs);
@@ -277,7 +286,7 @@ bus::StartUp Node::init(uint16_t &progress, bus::Message &message, bus::News &ne
   }
   const bool arrived = (seen_ & needed_) == needed_;
   const bool lssBusy = lssBusy_ || wantsNumber_;
-  const StartParts parts{config_, sdo_, supervision_, facts_, nmt_, arrived, lssBusy, lss_};
+  const StartParts parts{config_, sdo_, supervision_, facts_, nmt_, arrived, lssBusy, lss_, boots_};
   const bus::StartUp result = startUp_.step(parts, message);
   progress = startUp_.progress();
   if (result == bus::StartUp::Failed)

@@ -74,6 +74,10 @@ public:
   [[nodiscard]] LssOrder lssOrder() const;
   /// … which has ended so.
   void numbered(const LssOutcome &outcome, bus::News &news);
+  /// Devices with its number have been reset, so that one of them begins with another.
+  void resetByLss();
+  /// By LSS it begins anew, and has not booted since.
+  [[nodiscard]] bool boots() const { return boots_; }
   /// Nodes of the bus get their numbers.
   void setLssBusy(bool busy) { lssBusy_ = busy; }
 
@@ -84,6 +88,10 @@ public:
   [[nodiscard]] bus::DriveStatus status() const;
   [[nodiscard]] bool communication() const;
   [[nodiscard]] bool started() const { return phase_ == Phase::Started; }
+  /// In operation, or on the way to it: a reset would undo what it has been told.
+  [[nodiscard]] bool inUse() const {
+    return started() || (phase_ == Phase::Starting && startUp_.isReset());
+  }
   [[nodiscard]] NodeLoss loss() const { return loss_; }
   /// In operation more synchronous PDOs have come than it may send.
   [[nodiscard]] bool duplicate() const;
@@ -150,6 +158,7 @@ private:
   LssOutcome lss_;
   bool wantsNumber_;
   bool lssBusy_ = false;
+  bool boots_ = false; ///< By LSS it begins anew, and has not booted since.
   bool silent_ = false;
   bool late_ = false;
   bool saidSilent_ = false;

@@ -76,19 +76,6 @@ Manner mannerOf(StartOp op) { return kOps[static_cast<size_t>(op)].manner; }
 constexpr std::array<NmtCommand, 3> kResets = {NmtCommand::ResetCommunication,
                                                NmtCommand::ResetNode, NmtCommand::PreOperational};
 
-/// A parameter of a PDO, communication or mapping.
-bool isOfPdo(Object object) {
-  return object.index >= object::kRpdoCommunication && object.index < object::kTpdoMapping + 0x200;
-}
-
-/// Only makes a PDO ready to be changed: it is switched off, or has no objects for a while.
-bool preparesPdo(const SdoWrite &write) {
-  const bool mapping = (write.object.index & 0x200U) != 0; // 1600h …, 1A00h …
-  if (mapping)
-    return write.object.sub == 0 && write.value == 0;
-  return write.object.sub == 1 && (write.value & kPdoInvalid) != 0 && !write.optional;
-}
-
 /// What an output of an I/O device becomes without a master.
 bool isErrorValue(Object object) {
   constexpr std::array kOfOutputs = {object::kOutputErrorMode, object::kOutputErrorValue,
@@ -153,7 +140,7 @@ bus::StartUp StartUp::step(const StartParts &parts, bus::Message &message) {
 bool StartUp::disturbed(const StartParts &parts, bus::Message &message) {
   const uint32_t bootUps = parts.supervision.bootUps();
   if (bootUps > bootUps_) {
-    if (bootUps > 1) {
+    if (bootUps > 1 && isReset()) { // LSS resets all devices that have one number by mistake
       message.set("node ", uint32_t{node_},
                   " has booted twice: duplicate node id, or it restarts by itself");
       return true;
@@ -187,13 +174,7 @@ StartUp::Outcome StartUp::act(const StartParts &parts, bus::Message &message) {
   case StartOp::Lss:
     return awaitNumber(parts, message);
   case StartOp::Reset:
-    if (parts.lssBusy)
-      return Outcome::Busy;
-    bootUps_ = 0;
-    parts.supervision.clear();
-    parts.sdo.clear();
-    parts.nmt = kResets[static_cast<size_t>(parts.config.reset)];
-    return Outcome::Next;
+    return reset(parts);
   case StartOp::BootUp:
     return awaitBootUp(parts);
   case StartOp::Supervise:
@@ -211,7 +192,24 @@ StartUp::Outcome StartUp::act(const StartParts &parts, bus::Message &message) {
   }
 }
 
-/// A node that has got another number boots with it, and is not reset before that.
+/// A node that begins anew by LSS is not reset before it has booted.
+StartUp::Outcome StartUp::reset(const StartParts &parts) {
+  if (parts.lssBusy)
+    waited_ = 0; // the patience is for this node alone
+  if (parts.lssBusy || (parts.boots && waited_ < patience_))
+    return Outcome::Busy;
+  bootUps_ = 0;
+  parts.boots = false;
+  parts.supervision.clear();
+  parts.sdo.clear();
+  // A reset of the whole node brings back the number that it has stored.
+  const bool forgets = parts.config.lss.wanted && (!parts.config.lss.store || parts.lss.notStored);
+  parts.nmt = kResets[static_cast<size_t>(parts.config.reset)];
+  if (forgets && parts.nmt == NmtCommand::ResetNode)
+    parts.nmt = NmtCommand::ResetCommunication;
+  return Outcome::Next;
+}
+
 StartUp::Outcome StartUp::awaitNumber(const StartParts &parts, bus::Message &message) const {
   if (parts.lssBusy)
     return Outcome::Busy;
@@ -221,10 +219,11 @@ StartUp::Outcome StartUp::awaitNumber(const StartParts &parts, bus::Message &mes
     return Outcome::Failed;
   case LssOutcome::Kind::InUse:
     message.set("node ", uint32_t{node_}, ": the device has the number of node ",
-                uint32_t{parts.lss.before}, ", which is in operation: switch it off and on");
+                uint32_t{parts.lss.before}, ", which is in operation: ");
+    message.append(parts.config.lss.store && !parts.lss.notStored
+                       ? "switch it off and on"
+                       : "give it another one (stride can lss), or stop that node first");
     return Outcome::Failed;
-  case LssOutcome::Kind::Assigned:
-    return awaitBootUp(parts);
   default:
     return Outcome::Next;
   }
@@ -316,26 +315,6 @@ StartUp::Outcome StartUp::answered(const StartParts &parts, bus::Message &messag
   return compares_ ? compared(value, parts, message) : taken(parts, value, message);
 }
 
-/// A device may have PDOs that cannot be changed: they will do if they are what is wanted.
-StartUp::Outcome StartUp::fixedPdo(const SdoWrite &write) {
-  if (preparesPdo(write))
-    return Outcome::Next;
-  compares_ = true;
-  asked_ = false;
-  return Outcome::Busy;
-}
-
-StartUp::Outcome StartUp::compared(uint32_t value, const StartParts &parts,
-                                   bus::Message &message) const {
-  const SdoWrite &write = now().object;
-  const uint32_t wanted = valueOf(write, parts.facts);
-  if (value == wanted)
-    return Outcome::Next;
-  message.set("node ", uint32_t{node_}, ", ", ObjectText(write.object), " is fixed: it is ",
-              HexText(value), ", and would have to be ", HexText(wanted));
-  return Outcome::Failed;
-}
-
 /// The node has told how long the object is: what is cut off of the value must be nothing, or its
 /// sign.
 StartUp::Outcome StartUp::measured(const StartParts &parts, bus::Message &message) {
@@ -363,9 +342,7 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
     noRemote_ = now().op == StartOp::NoRemote ? 0 : noRemote_;
     return Outcome::Next;
   }
-  const bool isFixed = code == abort_code::kReadOnly || code == abort_code::kUnsupported;
-  if (now().op == StartOp::Write && isOfPdo(object.object) && isFixed && !compares_ &&
-      !parts.sdo.timedOut())
+  if (isFixedPdo(parts.sdo))
     return fixedPdo(object);
   message.set("node ", uint32_t{node_});
   if (parts.sdo.timedOut() && now().op == StartOp::DeviceType) {

@@ -16,8 +16,8 @@ namespace stride::can {
 
 /// What a step does.
 enum class StartOp : uint8_t {
-  Lss,            ///< Until the node has its number, and has booted with it.
-  Reset,          ///< By NMT.
+  Lss,            ///< Until the nodes of the bus have their numbers.
+  Reset,          ///< By NMT, after the node has booted with its number.
   BootUp,         ///< Until its message comes, or so long that it must be there.
   DeviceType,     ///< It must be of the profile that the kind of the node has.
   Identity,       ///< It must be what the configuration says.
@@ -63,6 +63,7 @@ struct StartParts {
   bool pdosArrived; ///< Since the node is operational.
   bool lssBusy;     ///< Nodes of the bus get their numbers: nobody is reset meanwhile.
   const LssOutcome &lss;
+  bool &boots; ///< By LSS it begins anew, and has not booted since.
 };
 
 class StartUp {
@@ -75,6 +76,10 @@ public:
   bus::StartUp step(const StartParts &parts, bus::Message &message);
 
   [[nodiscard]] uint8_t progress() const;
+  /// It has been reset: what it is told from now on it must keep.
+  [[nodiscard]] bool isReset() const {
+    return place_ >= steps_.size() || now().op > StartOp::Reset;
+  }
   /// It has no 1016h, no 1017h.
   [[nodiscard]] bool lacksConsumer() const { return lacksConsumer_; }
   [[nodiscard]] bool lacksHeartbeat() const { return lacksHeartbeat_; }
@@ -90,9 +95,11 @@ private:
   Outcome answered(const StartParts &parts, bus::Message &message);
   Outcome measured(const StartParts &parts, bus::Message &message);
   Outcome refused(const StartParts &parts, bus::Message &message);
+  [[nodiscard]] bool isFixedPdo(const SdoClient &sdo) const;
   Outcome fixedPdo(const SdoWrite &write);
   Outcome compared(uint32_t value, const StartParts &parts, bus::Message &message) const;
   Outcome taken(const StartParts &parts, uint32_t value, bus::Message &message);
+  Outcome reset(const StartParts &parts);
   Outcome awaitNumber(const StartParts &parts, bus::Message &message) const;
   [[nodiscard]] Outcome awaitBootUp(const StartParts &parts) const;
   Outcome awaitMode(const StartParts &parts, uint32_t value, bus::Message &message);

@@ -146,6 +146,30 @@ TEST_F(AssignmentOf, WhatNobodyHasAskedIsNothing) {
   EXPECT_EQ(test::text(lss.nextFrame()), "7E5#5E00000000000000");
 }
 
+/// It tells that it has stored, so late that the next node is being asked already.
+TEST_F(AssignmentOf, ALateAnswerIsNoneToTheNextQuestion) {
+  const std::vector<std::string> steps = {"44", "5E", "11", "13", "17"};
+  lss.begin(order);
+  for (int i = 0; i < 4; ++i)
+    lss.sent();
+  for (const std::string &step : steps) {
+    ASSERT_TRUE(lss.pending());
+    lss.sent();
+    for (const std::string &other : steps)
+      if (other != step)
+        lss.received(test::frame("7E4#" + other + "05000000000000"));
+    ASSERT_FALSE(lss.pending()) << step;
+    lss.cycle();
+    lss.received(test::frame("7E4#" + answers["7E5" + (step == "44" ? "43" : step)]));
+  }
+  lss.sent();
+  ASSERT_FALSE(lss.busy());
+  EXPECT_EQ(lss.outcome().kind, Kind::Assigned);
+  EXPECT_EQ(lss.outcome().before, lss::kNoNode);
+  EXPECT_FALSE(lss.outcome().notStored);
+  EXPECT_FALSE(lss.outcome().noBitRate);
+}
+
 /// The master with two nodes, the second one by LSS.
 class LssStartOf : public ::testing::Test {
 protected:
@@ -176,6 +200,7 @@ protected:
     port = owned.get();
     port->heard = [this](const Frame &frame) {
       sent.push_back(test::text(frame));
+      resetsTooEarly = resetsTooEarly || (test::text(frame) == "000#8209" && bootsIn > 0);
       hearLss(frame);
       first.hear(frame);
       if (second.answers)
@@ -191,13 +216,18 @@ protected:
   /// The second node as far as LSS goes.
   void hearLss(const Frame &frame) {
     if (frame.id == 0 && frame.data[0] == 0x82 && frame.data[1] == before && !second.answers) {
-      begin();
+      if (bootTime > 0)
+        bootsIn = bootTime;
+      else
+        begin();
       return;
     }
     if (frame.id != lss::kRequestId || !hasLss)
       return;
     switch (frame.data[0]) {
     case 0x43:
+      if (frame.data[1] != 0x44)
+        break;
       inbox.give("7E4#4400000000000000");
       break;
     case 0x5E: {
@@ -209,6 +239,12 @@ protected:
     case 0x11:
       inbox.give(refuses ? "7E4#1101000000000000" : "7E4#1100000000000000");
       set = !refuses;
+      break;
+    case 0x13:
+      inbox.give("7E4#1300000000000000");
+      break;
+    case 0x17:
+      inbox.give(stores ? "7E4#1700000000000000" : "7E4#1701000000000000");
       break;
     case 0x04:
       if (set && before == lss::kNoNode)
@@ -228,7 +264,9 @@ protected:
     master->executeStart();
     uint16_t progress = 0;
     bus::StartUp result = bus::StartUp::Busy;
-    for (size_t i = 0; i < 2; ++i) {
+    if (bootsIn > 0 && --bootsIn == 0)
+      begin();
+    for (const size_t i : {size_t{0}, index}) {
       bus::Message text;
       const bus::StartUp one = i == 0 && !startsFirst
                                    ? bus::StartUp::Busy
@@ -249,12 +287,12 @@ protected:
     master->executeEnd();
     return result;
   }
-  bus::StartUp run() {
+  bus::StartUp run(size_t index = 1) {
     if (!master)
       make();
     bus::StartUp result = bus::StartUp::Busy;
     for (cycles = 0; result == bus::StartUp::Busy && cycles < 8000; ++cycles)
-      result = cycle();
+      result = cycle(index);
     return result;
   }
   ptrdiff_t place(const std::string &text) const {
@@ -275,6 +313,10 @@ protected:
   bool refuses = false;
   bool set = false;
   bool startsFirst = true;
+  bool stores = true;
+  bool resetsTooEarly = false;
+  int bootTime = 0; ///< [cycles]
+  int bootsIn = 0;
   int boots = 0;
   int heartbeats = 0;
   int cycles = 0;
@@ -340,10 +382,84 @@ TEST_F(LssStartOf, ANumberOfANodeInOperationIsNotReset) {
   before = 5;
   sent.clear();
   EXPECT_EQ(run(), bus::StartUp::Failed) << "started anew";
-  EXPECT_EQ(message, "node 9: the device has the number of node 5, which is in operation: switch "
-                     "it off and on");
+  EXPECT_EQ(message, "node 9: the device has the number of node 5, which is in operation: give it "
+                     "another one (stride can lss), or stop that node first");
   EXPECT_THAT(sent, Not(Contains("000#8205")));
   EXPECT_TRUE(master->node(0).communication());
+}
+
+/// What it has stored it has after it was switched off and on.
+TEST_F(LssStartOf, AStoredNumberOfANodeInOperation) {
+  masterConfig.nodes[1].lss.store = true;
+  hasLss = false;
+  EXPECT_EQ(run(), bus::StartUp::Failed);
+  hasLss = true;
+  before = 5;
+  EXPECT_EQ(run(), bus::StartUp::Failed) << "started anew";
+  EXPECT_EQ(message, "node 9: the device has the number of node 5, which is in operation: switch "
+                     "it off and on");
+  stores = false;
+  EXPECT_EQ(run(), bus::StartUp::Failed) << "started anew";
+  EXPECT_THAT(message, HasSubstr("or stop that node first"));
+}
+
+/// A node that has been reset and is being configured would lose what it has been told.
+TEST_F(LssStartOf, ANumberOfANodeThatIsStartingIsNotReset) {
+  hasLss = false;
+  first.starts = false; // it is told to, and waits for 2 s
+  make();
+  for (int i = 0; i < 900; ++i)
+    (void)cycle();
+  ASSERT_THAT(sent, Contains("000#0105"));
+  hasLss = true;
+  before = 5;
+  master->node(1).reset();
+  sent.clear();
+  EXPECT_EQ(run(), bus::StartUp::Failed);
+  EXPECT_THAT(message, HasSubstr("the device has the number of node 5, which is in operation"));
+  EXPECT_THAT(sent, Not(Contains("000#8205")));
+}
+
+/// Each absent node takes its time; the patience for a boot-up begins after them.
+TEST_F(LssStartOf, AfterManyAbsentNodesABootUpIsAwaited) {
+  std::vector<NodeConfig> absent(4, masterConfig.nodes[1]);
+  for (size_t i = 0; i < absent.size(); ++i) {
+    DriveWish wish;
+    wish.node = static_cast<uint8_t>(20 + i);
+    wish.controlType = 4;
+    absent[i].plan = planDrive(wish).plan;
+    absent[i].identity[3] = static_cast<uint32_t>(100 + i);
+  }
+  masterConfig.nodes.insert(masterConfig.nodes.begin() + 1, absent.begin(), absent.end());
+  before = 33;
+  bootTime = 300;
+  ASSERT_EQ(run(1 + absent.size()), bus::StartUp::Started) << message;
+  EXPECT_FALSE(resetsTooEarly);
+  EXPECT_EQ(boots, 1);
+  EXPECT_GT(cycles, 2000 + bootTime);
+}
+
+/// A reset of the whole node would bring back the number that it has stored.
+TEST_F(LssStartOf, ANodeIsResetWholeOnlyIfItKeepsItsNumber) {
+  masterConfig.nodes[1].reset = NodeConfig::Reset::Node;
+  ASSERT_EQ(run(), bus::StartUp::Started) << message;
+  EXPECT_THAT(sent, Contains("000#8209"));
+  EXPECT_THAT(sent, Not(Contains("000#8109")));
+}
+TEST_F(LssStartOf, ANodeThatStoresItsNumberIsResetWhole) {
+  masterConfig.nodes[1].reset = NodeConfig::Reset::Node;
+  masterConfig.nodes[1].lss.store = true;
+  ASSERT_EQ(run(), bus::StartUp::Started) << message;
+  EXPECT_THAT(sent, Contains("000#8109"));
+  EXPECT_THAT(sent, Not(Contains("000#8209")));
+}
+TEST_F(LssStartOf, ANodeThatCannotStoreItsNumberIsNotResetWhole) {
+  masterConfig.nodes[1].reset = NodeConfig::Reset::Node;
+  masterConfig.nodes[1].lss.store = true;
+  stores = false;
+  ASSERT_EQ(run(), bus::StartUp::Started) << message;
+  EXPECT_THAT(sent, Contains("000#8209"));
+  EXPECT_THAT(sent, Not(Contains("000#8109")));
 }
 
 /// A start-up that begins anew looks for its node anew; the bus begins before anybody asks.

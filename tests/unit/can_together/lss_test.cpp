@@ -135,6 +135,23 @@ struct LssTogether : ::testing::Test {
     scene.started[drive] = false;
     scene.commands[drive] = {};
   }
+  /// The devices have been on for a while when the master begins.
+  void boot() {
+    for (int i = 0; i < 40; ++i)
+      scene.network->beginCycle();
+  }
+  /// A device that has that number from the beginning.
+  void store(size_t drive, uint8_t id) {
+    CanopenNode &node = scene.network->drive(drive);
+    for (const uint32_t request : {0x0104U, 0x0011U + (uint32_t{id} << 8U), 0x0017U, 0x0004U}) {
+      Frame frame;
+      frame.id = LssMaster::kRequestId;
+      frame.length = 8;
+      frame.data = {static_cast<uint8_t>(request), static_cast<uint8_t>(request >> 8U)};
+      node.receive(frame, 0);
+    }
+    ASSERT_EQ(node.id(), id);
+  }
   Together scene;
 };
 
@@ -170,6 +187,55 @@ TEST_F(LssTogether, WhatIsStoredIsKeptAndWhatIsSetIsSetAgain) {
   scene.run();
   EXPECT_EQ(scene.network->drive(0).id(), 4);
   EXPECT_EQ(scene.network->drive(1).id(), 6);
+}
+
+/// Factory-new, all are node 1: each one that gets its number is reset together with those that
+/// are still to get theirs.
+TEST_F(LssTogether, DevicesThatHaveOneNumber) {
+  add(1, 1001, 1);
+  add(2, 1002, 2);
+  add(3, 1003, 1);
+  scene.make();
+  for (size_t i = 0; i < 3; ++i)
+    store(i, 1);
+  boot();
+  scene.run();
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(scene.network->drive(i).id(), 1 + i);
+}
+
+/// The same, but the first one has its number by a switch, and is not looked for.
+TEST_F(LssTogether, ADeviceWithTheNumberOfOneWithoutLss) {
+  add(1, 1001, 0);
+  add(2, 1002, 1);
+  add(3, 1003, 2);
+  scene.make();
+  for (size_t i = 1; i < 3; ++i)
+    store(i, 1);
+  boot();
+  scene.run();
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(scene.network->drive(i).id(), 1 + i);
+}
+
+TEST_F(LssTogether, DevicesSwapTheirNumbers) {
+  add(5, 1005, 1);
+  add(8, 1008, 2);
+  scene.make();
+  store(0, 8);
+  store(1, 5);
+  boot();
+  scene.run();
+  EXPECT_EQ(scene.network->drive(0).id(), 5);
+  EXPECT_EQ(scene.network->drive(1).id(), 8);
+}
+
+TEST_F(LssTogether, ANumberThatIsSetOutlivesTheResetOfTheNode) {
+  add(5, 1005, 1);
+  scene.setup.drives[0].parameters.add({"reset", "", double{kResetNode}});
+  scene.make();
+  scene.run();
+  EXPECT_EQ(scene.network->drive(0).id(), 5);
 }
 
 TEST_F(LssTogether, ADeviceThatIsAnotherOneIsNotFound) {
