@@ -1,6 +1,7 @@
 #include "compiler/import/twincat_project.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/project_files.hpp"
 #include "compiler/import/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
@@ -31,14 +32,6 @@ std::optional<double> numberOf(const pugi::xml_attribute &attribute) {
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
-}
-
-/// As TOML, which tells 1.0 from 1.
-std::string tomlOf(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos)
-    text += ".0";
-  return text;
 }
 
 /// The axes of one file.
@@ -158,7 +151,7 @@ private:
 
   static void addNumber(std::string key, double value, DriveSetup &drive) {
     drive.parameters.push_back(
-        {std::move(key), tomlOf(value), Certainty::Sure, std::string(kPublished)});
+        {std::move(key), tomlNumber(value), Certainty::Sure, std::string(kPublished)});
   }
 
   const std::string &file_;
