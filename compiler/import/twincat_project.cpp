@@ -226,11 +226,12 @@ void readProjectItem(const std::string &file, const XmlDocument &document,
   const std::string_view element = item.name();
   const std::string include = item.attribute("Include").as_string();
   const Origin origin{file, document.lineOf(item)};
-  if (element == "Compile" && item.child("ExcludeFromBuild").text().as_bool())
+  const bool excluded = item.child("ExcludeFromBuild").text().as_bool();
+  if (element == "Compile")
+    (excluded ? model.excluded : model.references).push_back({withSlashes(include), origin});
+  if (element == "Compile" && excluded)
     model.leftOut.push_back({origin, include, "the project excludes it from the build"});
-  else if (element == "Compile")
-    model.references.push_back({withSlashes(include), origin});
-  else if (element == "PlaceholderReference")
+  if (element == "PlaceholderReference")
     addLibrary(
         {include, versionOfLibrary(item.child("DefaultResolution").text().as_string()), origin, {}},
         model);

@@ -95,5 +95,16 @@ TEST(Scope, typesThatNameEachOtherHaveNoEnd) {
   EXPECT_EQ(scope.typeOf("f[1]"), "");
 }
 
+TEST(Scope, pragmasAndCommentsDeclareNothing) {
+  Scope scope;
+  scope.declare("FUNCTION_BLOCK F VAR_INPUT {flag noread on} a : BOOL; /* (* b : INT; */ c : INT;\n"
+                "// d : INT;\n (* { *) e : {attribute 'x'} REAL; {open f : INT; END_VAR");
+  ASSERT_NE(scope.interfaceOf("F"), nullptr);
+  EXPECT_THAT(scope.interfaceOf("F")->inputs,
+              ElementsAre(Field(&Declared::name, "a"), Field(&Declared::name, "c"),
+                          Field(&Declared::name, "e")));
+  EXPECT_EQ(scope.interfaceOf("F")->inputs[2].type, "REAL");
+}
+
 } // namespace
 } // namespace stc::import::networks
