@@ -137,16 +137,15 @@ public:
   Mover(Model &model, Places places) : model_(model), places_(std::move(places)) {}
 
   /// The new address; empty: it stays.
-  std::string move(std::string_view text, const Origin &origin, size_t line) {
+  std::string move(std::string_view text, const Origin &origin) {
     const std::optional<Address> address = addressOf(text);
     if (!address || address->area == 'm')
       return {};
     const std::optional<size_t> bit = bitOf(*address, places_);
     if (!bit) {
       if (missing_.insert(std::string(text)).second)
-        model_.leftOut.push_back({{origin.file, origin.line + line - 1},
-                                  std::string(text),
-                                  "the PLC configuration has no channel at this address"});
+        model_.leftOut.push_back(
+            {origin, std::string(text), "the PLC configuration has no channel at this address"});
       return {};
     }
     const std::string result = plainAddress(address->area, address->size, *bit, model_.addressing);
@@ -166,15 +165,13 @@ private:
 void reportUnknown(Model &model) {
   std::set<std::string> seen;
   for (const Object &object : model.objects) {
-    LineCounter lines(object.text);
     for (const StWord &word : wordsOf(object.text)) {
       const std::string text = object.text.substr(word.begin, word.end - word.begin);
       const std::optional<Address> address =
           word.kind == StWord::Kind::Address ? addressOf(text) : std::nullopt;
       if (address && address->area != 'm' && isHierarchical(*address) && seen.insert(text).second)
         model.leftOut.push_back(
-            {{object.origin.file, object.origin.line + lines.at(word.begin) - 1},
-             text,
+            {object.origin, text,
              "it names a module of the target's hardware; import the export of the PLC "
              "configuration, too"});
     }
@@ -219,16 +216,12 @@ void moveAddresses(Model &model) {
       layout.add(*address);
   Mover mover(model, layout.places());
   for (IoChannel &channel : model.channels)
-    if (std::string moved = mover.move(channel.address, channel.origin, 1); !moved.empty())
+    if (std::string moved = mover.move(channel.address, channel.origin); !moved.empty())
       channel.address = std::move(moved);
-  for (Object &object : model.objects) {
-    LineCounter lines(object.text);
+  for (Object &object : model.objects)
     object.text = replaceWords(object.text, [&](const StWord &word, std::string_view text) {
-      return word.kind == StWord::Kind::Address
-                 ? mover.move(text, object.origin, lines.at(word.begin))
-                 : std::string();
+      return word.kind == StWord::Kind::Address ? mover.move(text, object.origin) : std::string();
     });
-  }
 }
 
 } // namespace stc::import

@@ -76,9 +76,12 @@ class Reader {
 public:
   Reader(const std::string &file, std::string_view text, Model &model)
       : file_(file), lines_(linesOf(text)), model_(model) {
-    for (size_t i = 0; i < lines_.size(); ++i)
+    for (size_t i = 0; i < lines_.size(); ++i) {
       if (const std::string_view word = firstWord(lines_[i]); word.starts_with("_END"))
         ends_[word] = i;
+      if (lines_[i].find("*)") != std::string_view::npos)
+        commentsEnd_ = i + 1;
+    }
   }
 
   void read() {
@@ -123,8 +126,12 @@ private:
       model_.changed.push_back({originOf(at_), fmt::format("attribute @{}", key),
                                 "dropped: what it means is not known"});
     attributes_[std::string(key)] = quoted(lines_[at_]);
-    while (at_ < lines_.size() && lines_[at_].find("*)") == std::string_view::npos)
-      ++at_;
+    if (at_ >= commentsEnd_)
+      leaveOut(at_, fmt::format("attribute @{}", key),
+               "the file ends before its `*)`; only its first line is taken for it");
+    else
+      while (lines_[at_].find("*)") == std::string_view::npos)
+        ++at_;
     ++at_;
     return true;
   }
@@ -395,6 +402,7 @@ private:
   std::optional<size_t> lastPou_;
   std::string comment_; ///< that stands before the object that comes next
   size_t commentBegin_ = 0;
+  size_t commentsEnd_ = 0;                  ///< the line after the last one that ends a comment
   std::map<std::string_view, size_t> ends_; ///< the last line of each `_END_…`
   std::map<std::string, size_t> lists_;     ///< the file's lists, by name
   std::optional<size_t> strayEnd_; ///< the line after the last one that belongs to no section

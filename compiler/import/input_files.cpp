@@ -63,6 +63,39 @@ void placeByFolders(Model &model) {
   }
 }
 
+/// Where a file that another one names lies.
+std::string pathTo(const FileReference &reference) {
+  return (fs::path(reference.origin.file).parent_path() / reference.path).lexically_normal();
+}
+
+/// Folders may hold files that their projects have, but do not build.
+void dropExcluded(Model &model) {
+  std::set<std::string> files;
+  for (const FileReference &each : model.excluded)
+    files.insert(pathTo(each));
+  for (const FileReference &each : model.references) // of another project
+    files.erase(pathTo(each));
+  if (files.empty())
+    return;
+  const auto dropped = [&](const auto &each) {
+    return files.contains(fs::path(each.origin.file).lexically_normal().string());
+  };
+  std::erase_if(model.objects, dropped);
+  std::erase_if(model.tasks, dropped);
+  std::erase_if(model.changed, dropped);
+  std::erase_if(model.leftOut, dropped);
+  std::erase_if(model.unreadable, dropped);
+}
+
+/// Ends of lines as other systems have them.
+void dropCarriageReturns(std::string &text) {
+  size_t to = 0;
+  for (size_t from = 0; from < text.size(); ++from)
+    if (text[from] != '\r' || from + 1 == text.size() || text[from + 1] != '\n')
+      text[to++] = text[from];
+  text.resize(to);
+}
+
 /// Exports with pictures are longer than sources may be.
 constexpr size_t kMostBytes = size_t{256} << 20U;
 constexpr int kDeepest = 64; ///< folders in each other
@@ -87,12 +120,12 @@ public:
   void addReferences() {
     for (; followed_ < model_.references.size(); ++followed_) {
       const FileReference reference = model_.references[followed_];
-      const std::string path =
-          (fs::path(reference.origin.file).parent_path() / reference.path).lexically_normal();
+      const std::string path = pathTo(reference);
       std::error_code error;
       if (!hasKnownExtension(path))
-        continue;
-      if (!fs::is_regular_file(path, error))
+        model_.leftOut.push_back(
+            {reference.origin, reference.path, "files with this ending are not imported"});
+      else if (!fs::is_regular_file(path, error))
         model_.leftOut.push_back({reference.origin, reference.path, "the file is not there"});
       else if (isNew(path))
         read(path);
@@ -158,7 +191,7 @@ private:
     FormatChoice choice = formatOf(path, *bytes);
     if (choice.format == nullptr && choice.known)
       return refuse({path, 1}, std::move(choice.refusal));
-    const DecodedText text = decoded(*bytes, encoding_);
+    DecodedText text = decoded(*bytes, encoding_);
     if (!text.problem.empty())
       return refuse({path, text.line}, text.problem);
     choice = formatOf(path, text.text); // UTF-16 shows only now what it is
@@ -166,8 +199,10 @@ private:
       return refuse({path, 1}, std::move(choice.refusal));
     if (text.assumed)
       model_.assumedEncoding.push_back(path);
+    dropCarriageReturns(text.text);
+    const size_t refused = model_.unreadable.size();
     choice.format->read(path, text.text, model_);
-    ++model_.files;
+    model_.files += model_.unreadable.size() == refused ? 1 : 0;
   }
 
   const std::string &encoding_;
@@ -185,6 +220,7 @@ Model readFiles(const std::vector<std::string> &paths, const std::string &encodi
   for (const std::string &path : paths)
     reader.add(path);
   reader.addReferences();
+  dropExcluded(model);
   placeByFolders(model);
   return model;
 }

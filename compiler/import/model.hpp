@@ -166,6 +166,7 @@ struct Model {
   std::vector<MovedAddress> addresses;
   std::string addressing; ///< [image] addressing of stride.toml; empty: not said
   std::vector<FileReference> references;
+  std::vector<FileReference> excluded; ///< files that a project has, but does not build
   std::vector<AxisLink> axisLinks;
   std::vector<std::string> named; ///< Stride's libraries that stride.toml must name
   std::vector<KeptText> kept;

@@ -1,6 +1,7 @@
 #include "compiler/import/plc_configuration.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/project_files.hpp"
 #include "compiler/source/identifier.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ enum class Role { Other, Bus, Group, Drive, Encoder };
 struct RoleName {
   std::string_view word; ///< in lower case
   Role role;
-  Role above; ///< what it stands in; Other: anything
+  Role above; ///< what it stands in; Other: in nothing that has to do with drives
 };
 // The manual's names of the elements of the PLC configuration (2.1.1 to 2.1.4).
 constexpr std::array<RoleName, 4> kRoles = {{{"businterface", Role::Bus, Role::Other},
@@ -168,13 +169,19 @@ private:
       return;
     open_ = false;
     Module &module = modules_.back();
+    bool nestedBus = false;
     for (const RoleName &each : kRoles)
-      if (lowerCase(module.section).find(each.word) != std::string::npos ||
-          lowerCase(module.name).starts_with(each.word))
-        if (each.above == Role::Other || each.above == roleAround()) {
+      if (module.role == Role::Other &&
+          (lowerCase(module.section).find(each.word) != std::string::npos ||
+           lowerCase(module.name).starts_with(each.word))) {
+        if (each.above == roleAround())
           module.role = each.role;
-          break;
-        }
+        else
+          nestedBus = nestedBus || each.role == Role::Bus;
+      }
+    if (nestedBus && module.role == Role::Other)
+      model_.leftOut.push_back({module.origin, fmt::format("bus interface `{}`", module.name),
+                                "it stands inside another bus interface"});
     addDrive(module);
   }
 
@@ -309,24 +316,16 @@ constexpr std::array<KnownParameter, 28> kParameters = {{
     {"unit", ValueKind::Text},
 }};
 
-bool isNumber(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() && !text.empty();
-}
-
 std::string tomlValue(const std::string &value, ValueKind kind) {
   const std::string lower = lowerCase(value);
   if (kind == ValueKind::Switch && (lower == "true" || lower == "1" || lower == "yes"))
     return "true";
   if (kind == ValueKind::Switch && (lower == "false" || lower == "0" || lower == "no"))
     return "false";
-  if (kind != ValueKind::Text && isNumber(value))
-    return value;
-  std::string text = "\"";
-  for (const char c : kind == ValueKind::Choice ? lower : value)
-    text += c == '"' || c == '\\' || static_cast<unsigned char>(c) < ' ' ? '_' : c;
-  return text + "\"";
+  if (kind != ValueKind::Text)
+    if (std::optional<std::string> number = tomlNumber(value))
+      return *std::move(number);
+  return tomlText(kind == ValueKind::Choice ? lower : value);
 }
 
 /// Numbers of the words of a line or section of the configuration file.
@@ -424,7 +423,7 @@ void nameParameters(Model &model, const std::string &configuration) {
       nameAll(group.parameters, group.numbered, names);
       if (!group.numbered.empty() && !has(group.parameters, "sTask"))
         group.parameters.push_back(
-            {"sTask", model.tasks.empty() ? "\"MotionTask\"" : "\"" + model.tasks[0].name + "\"",
+            {"sTask", tomlText(model.tasks.empty() ? "MotionTask" : model.tasks[0].name),
              model.tasks.size() > 1 ? Certainty::Guessed : Certainty::Missing, "the first task"});
       nameDrives(group.drives, "wDriveId", names);
       nameDrives(group.encoders, "wEncoderId", names);

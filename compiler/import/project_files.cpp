@@ -4,8 +4,10 @@
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <map>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -72,10 +74,9 @@ std::string tomlOf(const Task &task) {
     text += "kind = \"freewheeling\"\n";
   if (!task.interval.empty())
     text += fmt::format("interval = {}\n", tomlText(task.interval));
-  const bool number = std::all_of(task.priority.begin(), task.priority.end(),
-                                  [](char c) { return c >= '0' && c <= '9'; });
   if (!task.priority.empty())
-    text += fmt::format("priority = {}\n", number ? task.priority : tomlText(task.priority));
+    text +=
+        fmt::format("priority = {}\n", tomlNumber(task.priority).value_or(tomlText(task.priority)));
   if (!task.watchdog.empty())
     text += fmt::format("watchdog = {}\n", tomlText(task.watchdog));
   text += "programs = [";
@@ -171,6 +172,26 @@ std::string tomlText(std::string_view text) {
     else
       result += c;
   return result + '"';
+}
+
+std::string tomlNumber(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos)
+    text += ".0";
+  return text;
+}
+
+std::optional<std::string> tomlNumber(std::string_view text) {
+  const char *const end = text.data() + text.size();
+  int64_t whole = 0;
+  if (const auto [at, error] = std::from_chars(text.data(), end, whole);
+      error == std::errc() && at == end)
+    return fmt::format("{}", whole);
+  double value = 0;
+  const auto [at, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || at != end || !std::isfinite(value))
+    return std::nullopt;
+  return tomlNumber(value);
 }
 
 std::vector<ProjectFile> projectFiles(const Model &model, const ProjectSettings &settings) {

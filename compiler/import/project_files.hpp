@@ -4,7 +4,9 @@
 
 #include "compiler/import/model.hpp"
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stc::import {
@@ -28,6 +30,11 @@ struct ProjectSettings {
 
 /// The text as a string of TOML.
 [[nodiscard]] std::string tomlText(std::string_view text);
+/// The number as a float of TOML, which tells 1.0 from 1. It must be finite.
+[[nodiscard]] std::string tomlNumber(double value);
+/// A number of another tool (`007`, `.5`, `5.`, `1E3`) as one of TOML: an integer stays one. None:
+/// it is no finite number as a whole.
+[[nodiscard]] std::optional<std::string> tomlNumber(std::string_view text);
 
 /// Where texts that are kept go, below the project's folder.
 inline constexpr const char *kKeptFolder = "import/kept/";

@@ -90,24 +90,24 @@ private:
     text.setObject(std::string(block.begin));
     const std::string name = text.takeName();
     text.setObject(fmt::format("{} {}", block.begin, name));
-    const bool complete = name.empty() ? false : takeBlock(block, name, begin, text);
-    if (!complete) {
-      model_.leftOut.push_back(
-          {{file_, tokens_[begin].line},
-           fmt::format("{} {}", block.begin, name),
-           name.empty() ? "it has no name"
-                        : fmt::format("the file ends before {}; export it again", block.end)});
-      at_ = name.empty() ? begin + 1 : tokens_.size();
-    } else {
-      at_ = text.at();
-    }
+    const size_t end = name.empty() ? begin : endOf(block, begin);
+    const std::string object = fmt::format("{} {}", block.begin, name);
+    if (name.empty())
+      leaveOut(begin, object, "it has no name");
+    else if (end == tokens_.size())
+      leaveOut(begin, object, fmt::format("the file ends before {}; export it again", block.end));
+    else if (text.setLimit(end + 1); !takeBlock(block, name, begin, end, text))
+      leaveOut(begin, object, fmt::format("its declarations do not end before {}", block.end));
+    at_ = end + 1;
     before_.clear();
   }
 
-  bool takeBlock(const BlockWord &block, const std::string &name, size_t begin, SclText &text) {
-    const size_t end = endOf(block, begin);
-    if (end == tokens_.size())
-      return false;
+  void leaveOut(size_t token, std::string object, std::string why) {
+    model_.leftOut.push_back({{file_, tokens_[token].line}, std::move(object), std::move(why)});
+  }
+
+  bool takeBlock(const BlockWord &block, const std::string &name, size_t begin, size_t end,
+                 SclText &text) {
     if (block.begin == "TYPE")
       return takeType(name, begin, text);
     if (block.begin == "DATA_BLOCK")
@@ -195,6 +195,7 @@ private:
     while (from < end && !isSclWord(tokens_[from], "BEGIN"))
       ++from;
     SclText text(file_, tokens_, std::min(from + 1, end), model_);
+    text.setLimit(end);
     while (text.at() < end) {
       std::string passed;
       text.pass(passed);

@@ -79,7 +79,7 @@ std::string SclText::comment(std::string_view text) {
     if (pair == "(*" || pair == "*)")
       out += ' ';
   }
-  return out + "*)";
+  return out + (inside.ends_with('(') ? " *)" : "*)");
 }
 
 std::string SclText::literal(const SclToken &token) {
@@ -141,7 +141,7 @@ void SclText::structure(std::string &out, const std::string &name) {
   skip(); // STRUCT
   if (++depth_ > scl::kDeepest) {
     leaveOut(line, "its structures are nested too deep");
-    at_ = tokens_.size();
+    at_ = limit_;
     return;
   }
   std::string inside;

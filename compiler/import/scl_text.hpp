@@ -16,10 +16,12 @@ namespace stc::import {
 class SclText {
 public:
   SclText(const std::string &file, const std::vector<SclToken> &tokens, size_t at, Model &model)
-      : file_(file), tokens_(tokens), at_(at), model_(model) {}
+      : file_(file), tokens_(tokens), at_(at), limit_(tokens.size()), model_(model) {}
 
   [[nodiscard]] size_t at() const { return at_; }
-  [[nodiscard]] bool atEnd() const { return at_ >= tokens_.size(); }
+  /// Nothing from this token on is of the block.
+  void setLimit(size_t limit) { limit_ = limit; }
+  [[nodiscard]] bool atEnd() const { return at_ >= limit_; }
   [[nodiscard]] const SclToken &now() const { return tokens_[at_]; }
   [[nodiscard]] bool isNow(std::string_view capital) const {
     return !atEnd() && isSclWord(now(), capital);
@@ -40,7 +42,7 @@ public:
   /// Members of a structure or of variables up to `end` (END_VAR, END_STRUCT), which is passed.
   void members(std::string &out, const std::string &owner, std::string_view end,
                const MemberRules &rules);
-  /// Statements up to `end`, which is passed. False when the text ends before.
+  /// Statements up to `end`, which is passed. False when the block ends before.
   [[nodiscard]] bool statements(std::string &out, std::string_view end);
   /// A value up to the `;`, which is passed.
   [[nodiscard]] std::string value();
@@ -68,6 +70,7 @@ private:
   const std::string &file_;
   const std::vector<SclToken> &tokens_;
   size_t at_;
+  size_t limit_;
   Model &model_;
   std::string object_;
   std::string hoisted_;

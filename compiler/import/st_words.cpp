@@ -111,10 +111,4 @@ std::string replaceWords(std::string_view text,
   return result;
 }
 
-size_t LineCounter::at(size_t place) {
-  for (; place_ < place; ++place_)
-    line_ += text_[place_] == '\n' ? 1 : 0;
-  return line_;
-}
-
 } // namespace stc::import

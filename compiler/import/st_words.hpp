@@ -31,19 +31,6 @@ struct StWord {
 replaceWords(std::string_view text,
              const std::function<std::string(const StWord &, std::string_view)> &by);
 
-/// Lines of places that are asked for in ascending order.
-class LineCounter {
-public:
-  explicit LineCounter(std::string_view text) : text_(text) {}
-  /// The line, from 1.
-  [[nodiscard]] size_t at(size_t place);
-
-private:
-  std::string_view text_;
-  size_t place_ = 0;
-  size_t line_ = 1;
-};
-
 } // namespace stc::import
 
 #endif // STRIDE_COMPILER_IMPORT_ST_WORDS_HPP

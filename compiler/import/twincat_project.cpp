@@ -1,6 +1,7 @@
 #include "compiler/import/twincat_project.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/project_files.hpp"
 #include "compiler/import/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
@@ -31,14 +32,6 @@ std::optional<double> numberOf(const pugi::xml_attribute &attribute) {
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
-}
-
-/// As TOML, which tells 1.0 from 1.
-std::string tomlOf(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos)
-    text += ".0";
-  return text;
 }
 
 /// The axes of one file.
@@ -158,7 +151,7 @@ private:
 
   static void addNumber(std::string key, double value, DriveSetup &drive) {
     drive.parameters.push_back(
-        {std::move(key), tomlOf(value), Certainty::Sure, std::string(kPublished)});
+        {std::move(key), tomlNumber(value), Certainty::Sure, std::string(kPublished)});
   }
 
   const std::string &file_;
@@ -233,11 +226,12 @@ void readProjectItem(const std::string &file, const XmlDocument &document,
   const std::string_view element = item.name();
   const std::string include = item.attribute("Include").as_string();
   const Origin origin{file, document.lineOf(item)};
-  if (element == "Compile" && item.child("ExcludeFromBuild").text().as_bool())
+  const bool excluded = item.child("ExcludeFromBuild").text().as_bool();
+  if (element == "Compile")
+    (excluded ? model.excluded : model.references).push_back({withSlashes(include), origin});
+  if (element == "Compile" && excluded)
     model.leftOut.push_back({origin, include, "the project excludes it from the build"});
-  else if (element == "Compile")
-    model.references.push_back({withSlashes(include), origin});
-  else if (element == "PlaceholderReference")
+  if (element == "PlaceholderReference")
     addLibrary(
         {include, versionOfLibrary(item.child("DefaultResolution").text().as_string()), origin, {}},
         model);

@@ -115,6 +115,7 @@ private:
   }
 
   void readNetwork() {
+    rung_.reset();
     body_.networks.emplace_back();
     network_ = &body_.networks.back();
     network_->line = line();
@@ -176,6 +177,8 @@ private:
   }
 
   void readRung() {
+    if (rung_)
+      refuse("a rung inside the ENABLELIST of another one");
     Wire rung = readOnce(readExpression(0, {.boolean = true}), true);
     const bool negated = expressionSign();
     if (negated) { // so that coils and boxes with EN read the same value
@@ -190,6 +193,7 @@ private:
     for (size_t i = 0; i < boxes; ++i)
       readStatement();
     expect("ENABLELIST_END");
+    rung_.reset();
     readOutputs(rung, false);
   }
 
@@ -358,7 +362,7 @@ private:
   const Scope &scope_;
   Body body_;
   Network *network_ = nullptr;
-  std::optional<Wire> rung_;
+  std::optional<Wire> rung_; ///< whose ENABLELIST is being read
   size_t at_ = 0;
 };
 

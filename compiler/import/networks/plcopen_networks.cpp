@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -85,6 +86,8 @@ constexpr std::array<std::pair<std::string_view, NodeKind>, 13> kKinds = {{
     {"comment", NodeKind::Comment},
 }};
 
+constexpr size_t kInOutChain = 200; // of blocks that pass one variable on
+
 class DrawingReader {
 public:
   DrawingReader(const xml_node &drawing, const LineOf &lineOf, std::vector<Problem> &problems)
@@ -98,6 +101,8 @@ public:
     for (xml_node each = drawing_.first_child(); each; each = each.next_sibling())
       if (each.type() == pugi::node_element)
         readElement(each, titled);
+    for (const auto &[index, node] : elements_)
+      connectInOuts(index, 0);
     for (const auto &[index, node] : elements_)
       connect(index, node);
     body_.sequence = titled ? Sequence::Document : Sequence::Position;
@@ -277,10 +282,28 @@ private:
       return;
     }
     size_t at = 0;
-    for (const std::string_view group : {"inputVariables", "inOutVariables"})
-      for (const xml_node each : child(xml, group).children())
-        if (localName(each) == "variable")
-          connectPin(body_.nodes[index].inputs[at++], child(each, "connectionPointIn"));
+    for (const xml_node each : child(xml, "inputVariables").children())
+      if (localName(each) == "variable")
+        connectPin(body_.nodes[index].inputs[at++], child(each, "connectionPointIn"));
+  }
+
+  /// Before all else, for others read their right sides; those that these read come first.
+  void connectInOuts(NodeIndex index, size_t depth) {
+    const xml_node xml = elements_[index].second;
+    if (depth == kInOutChain || localName(xml) != "block" || !inOutsDone_.insert(index).second)
+      return;
+    std::vector<InPin> &pins = body_.nodes[index].inputs;
+    auto pin = std::ranges::find_if(pins, &InPin::inOut);
+    for (const xml_node each : child(xml, "inOutVariables").children()) {
+      if (localName(each) != "variable")
+        continue;
+      const xml_node point = child(each, "connectionPointIn");
+      for (const xml_node connection : point.children())
+        if (const auto from = ids_.find(connection.attribute("refLocalId").value());
+            from != ids_.end())
+          connectInOuts(from->second, depth + 1);
+      connectPin(*pin++, point);
+    }
   }
 
   void connectPin(InPin &pin, const xml_node &point) {
@@ -346,6 +369,7 @@ private:
   Network head_; ///< of the network that begins next
   std::map<std::string, NodeIndex> ids_;
   std::vector<std::pair<NodeIndex, xml_node>> elements_;
+  std::set<NodeIndex> inOutsDone_;
 };
 
 } // namespace

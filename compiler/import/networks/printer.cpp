@@ -15,6 +15,7 @@ constexpr size_t kLeavesRepeated = 12; // of an expression that stands several t
 constexpr size_t kLeaves = 30;         // of an expression, for people's sake
 constexpr size_t kReadableDepth = 12;  // of an expression, likewise
 constexpr size_t kDepthAtMost = 60;    // where no variable can be declared
+constexpr size_t kLeavesAtMost = 1000; // likewise
 constexpr size_t kNodesLookedAt = 64;
 
 size_t depthOf(const Expression &expression) {
@@ -248,7 +249,7 @@ bool Values::mustBeStored(Wire from, const Expression &value, size_t uses) const
   const size_t leaves = leavesOf(value);
   const size_t depth = depthOf(value);
   if (leaves > kLeaves || depth > kReadableDepth)
-    return depth > kDepthAtMost || !typeOf(from).empty();
+    return leaves > kLeavesAtMost || depth > kDepthAtMost || !typeOf(from).empty();
   if (uses < 2 || isLeaf(value))
     return false;
   if (callsIn(value))
@@ -299,6 +300,7 @@ bool Values::store(Port port, Value &value) {
         {node.line, fmt::format("the type of what `{}` gives is not known, and its value is needed "
                                 "in several places; import its declaration, too",
                                 node.text)});
+    value.expression = textOf("unknown"); // nothing is printed any more: it must not grow
     return false;
   }
   value.expression = stored(wishFor({port.first, port.second}), value.expression, type);

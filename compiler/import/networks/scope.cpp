@@ -22,6 +22,9 @@ constexpr std::array<std::string_view, 10> kSections = {
     "VAR",      "VAR_INPUT", "VAR_OUTPUT",   "VAR_IN_OUT", "VAR_TEMP",
     "VAR_STAT", "VAR_INST",  "VAR_EXTERNAL", "VAR_GLOBAL", "VAR_CONFIG"};
 
+/// Types that are other names of each other would have no end.
+constexpr int kAliasesFollowed = 32;
+
 /// Words that a variable cannot have as its name although no declaration shows them.
 constexpr std::array<std::string_view, 12> kReserved = {"and", "or",  "not", "xor", "mod",  "if",
                                                         "for", "var", "add", "sub", "move", "sel"};
@@ -216,26 +219,35 @@ const Interface *Scope::interfaceOf(std::string_view type) const {
 }
 
 std::string Scope::memberType(const std::string &type, const std::string &member) const {
-  const auto structure = structures_.find(lowerCase(type));
-  if (structure != structures_.end()) {
-    const auto found = structure->second.find(lowerCase(member));
-    return found == structure->second.end() ? std::string() : found->second;
+  std::string key = lowerCase(type);
+  for (int followed = 0; followed < kAliasesFollowed; ++followed) {
+    const auto structure = structures_.find(key);
+    if (structure != structures_.end()) {
+      const auto found = structure->second.find(lowerCase(member));
+      return found == structure->second.end() ? std::string() : found->second;
+    }
+    const auto alias = aliases_.find(key);
+    if (alias == aliases_.end())
+      break;
+    key = lowerCase(alias->second);
   }
-  const auto alias = aliases_.find(lowerCase(type));
-  if (alias != aliases_.end() && alias->second != type)
-    return memberType(alias->second, member);
   const bool bit = !member.empty() && member.front() >= '0' && member.front() <= '9';
   return bit ? "BOOL" : std::string();
 }
 
 std::string Scope::elementType(const std::string &type) const {
-  const std::string upper = upperCase(type);
-  const size_t of = upper.find("OF ");
-  if (upper.starts_with("ARRAY") && of != std::string::npos)
-    return std::string(trim(std::string_view(type).substr(of + 3)));
-  const auto alias = aliases_.find(lowerCase(type));
-  return alias == aliases_.end() || alias->second == type ? std::string()
-                                                          : elementType(alias->second);
+  std::string_view name = type;
+  for (int followed = 0; followed < kAliasesFollowed; ++followed) {
+    const std::string upper = upperCase(name);
+    const size_t of = upper.find("OF ");
+    if (upper.starts_with("ARRAY") && of != std::string::npos)
+      return std::string(trim(name.substr(of + 3)));
+    const auto alias = aliases_.find(lowerCase(name));
+    if (alias == aliases_.end())
+      break;
+    name = alias->second;
+  }
+  return {};
 }
 
 std::string Scope::typeOf(std::string_view path) const {

@@ -17,16 +17,18 @@ bool isLetter(char c) {
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-/// Past blanks and comments.
+/// Past blanks, comments and pragmas.
 size_t skipped(std::string_view text, size_t at) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kPassed = {
+      {{"//", "\n"}, {"(*", "*)"}, {"/*", "*/"}, {"{", "}"}}};
   while (at < text.size()) {
-    if (isBlank(text[at])) {
+    const auto *passed = std::ranges::find_if(
+        kPassed, [&](const auto &each) { return text.substr(at).starts_with(each.first); });
+    if (passed != kPassed.end()) {
+      const size_t end = text.find(passed->second, at + passed->first.size());
+      at = end == std::string_view::npos ? text.size() : end + passed->second.size();
+    } else if (isBlank(text[at])) {
       ++at;
-    } else if (text.substr(at, 2) == "//") {
-      at = std::min(text.find('\n', at), text.size());
-    } else if (text.substr(at, 2) == "(*") {
-      const size_t end = text.find("*)", at + 2);
-      at = end == std::string_view::npos ? text.size() : end + 2;
     } else {
       break;
     }

@@ -186,5 +186,42 @@ TEST(ExpReader, foldersCannotLeaveTheProject) {
   EXPECT_THAT(foldersOf(""), IsEmpty());
 }
 
+/// A module of the PLC configuration with what is inside it.
+std::string module(const std::string &section, const std::string &name, const std::string &inside) {
+  return "_MODULE: '3S'\n_SECTION_NAME: '" + section + "'\n_MODULE_NAME: '" + name + "'\n" +
+         inside + "_END_MODULE\n";
+}
+
+TEST(ExpReader, aBusInsideAnotherOneIsALoss) {
+  const std::string drive = module("Drive", "Ram", "_PARAM 201: 0, '7'\n");
+  const Model model =
+      read("PLC_CONFIGURATION\n" +
+           module("BusInterface", "A",
+                  module("AxisGroup", "G",
+                         "_PARAM 99: 0, '1'\n" + module("BusInterface", "B", drive) +
+                             "_PARAM 100: 0, '2'\n" + drive + module("Encoder", "Belt", ""))) +
+           module("BusInterface", "C", module("Drive", "Lone", "")) + "PLC_END\n");
+  ASSERT_THAT(model.buses, SizeIs(2));
+  ASSERT_THAT(model.buses[0].groups, SizeIs(1));
+  EXPECT_THAT(model.buses[0].groups[0].numbered, SizeIs(2));
+  EXPECT_THAT(model.buses[0].groups[0].drives, SizeIs(2));
+  EXPECT_THAT(model.buses[0].groups[0].encoders, SizeIs(1));
+  EXPECT_EQ(model.buses[1].name, "C");
+  EXPECT_THAT(model.buses[1].groups, IsEmpty());
+  ASSERT_THAT(model.leftOut, SizeIs(1));
+  EXPECT_EQ(model.leftOut[0].object, "bus interface `B`");
+  EXPECT_EQ(model.leftOut[0].origin.line, 9U);
+}
+
+TEST(ExpReader, anAttributeThatIsNotClosedTakesOneLine) {
+  const Model model = read("(* a *)\n(* @PATH := '\\/Motion'\nPROGRAM P\nEND_PROGRAM\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_THAT(model.objects[0].folder, ElementsAre("Motion"));
+  ASSERT_THAT(model.leftOut, SizeIs(1));
+  EXPECT_EQ(model.leftOut[0].object, "attribute @PATH");
+  EXPECT_EQ(model.leftOut[0].origin.line, 2U);
+  EXPECT_THAT(read("(* @SYMFILEFLAGS := 'a'\n'b' *)\nPROGRAM P\nEND_PROGRAM\n").leftOut, IsEmpty());
+}
+
 } // namespace
 } // namespace stc::import

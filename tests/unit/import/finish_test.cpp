@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace stc::import {
@@ -93,7 +95,7 @@ TEST(Finish, numbersChannelsInTheirOrder) {
             "h AT %IX0.0.8 : BOOL;");
   EXPECT_THAT(model.addresses, SizeIs(5));
   ASSERT_THAT(model.leftOut, SizeIs(1)) << "a byte has no bit 8";
-  EXPECT_EQ(model.leftOut[0].origin.line, 12U);
+  EXPECT_EQ(model.leftOut[0].origin.line, 10U) << "where the object begins";
 }
 
 TEST(Finish, wordsAreCountedAsTheUserWants) {
@@ -125,7 +127,7 @@ TEST(Finish, addressesOfUnknownHardwareAreLosses) {
   finished(model);
   ASSERT_THAT(model.leftOut, SizeIs(1));
   EXPECT_EQ(model.leftOut[0].object, "%IW0.7.3");
-  EXPECT_EQ(model.leftOut[0].origin.line, 11U);
+  EXPECT_EQ(model.leftOut[0].origin.line, 10U);
 }
 
 TEST(Finish, looksUpWhatIsUsedOfLibraries) {
@@ -161,6 +163,27 @@ TEST(Finish, aPointAtTheEndOfANumber) {
   finished(model);
   EXPECT_EQ(model.objects[0].text,
             "a := 10.0/b; c := 1.5; d := w.3; FOR i IN 1..5; e := 2.0; f := x[1].y; g := 3.e2;");
+}
+
+TEST(Finish, parametersOfDrivesAreToml) {
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / "stride_finish_parameters.cfg";
+  std::ofstream(path) << "[1]\nName=wDriveId\n[2]\nName=fPositionPeriod\n"
+                         "[3]\nName=fSWMaxVelocity\n[4]\nName=iMovementType\n";
+  Model model;
+  model.tasks = {{"a \"fast\\ one", "", "", "", {"P"}, {"a.EXP", 3}, {}}};
+  DriveSetup drive{"Ram", {}, {"a.EXP", 5}, {{1, "007"}, {2, ".5"}, {3, "5."}, {4, "Ro\"tary"}}};
+  model.buses = {{"Line", {{"Axes", {}, {drive}, {"a.EXP", 4}, {}, {{9, "1"}}}}, {"a.EXP", 3}}};
+  finished(model, {.library = false, .addressing = {}, .configuration = path.string(), .own = {}});
+  std::filesystem::remove(path);
+  const DriveGroupSetup &group = model.buses[0].groups[0];
+  ASSERT_THAT(group.parameters, SizeIs(1));
+  EXPECT_EQ(group.parameters[0].value, "\"a \\\"fast\\\\ one\"");
+  ASSERT_GE(group.drives[0].parameters.size(), 4U);
+  EXPECT_EQ(group.drives[0].parameters[0].value, "7");
+  EXPECT_EQ(group.drives[0].parameters[1].value, "0.5");
+  EXPECT_EQ(group.drives[0].parameters[2].value, "5.0");
+  EXPECT_EQ(group.drives[0].parameters[3].value, "\"ro\\\"tary\"");
 }
 
 TEST(Finish, aMissingConfigurationFileIsAProblem) {

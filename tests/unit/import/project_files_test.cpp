@@ -44,6 +44,21 @@ TEST(ProjectFiles, tasksAreThoseOfTheProjectFile) {
       "\n[[task]]\nname = \"Free\"\nkind = \"freewheeling\"\nprograms = []\n");
 }
 
+TEST(ProjectFiles, numbersOfOtherToolsBecomeThoseOfToml) {
+  EXPECT_EQ(tomlNumber("007"), "7");
+  EXPECT_EQ(tomlNumber("-12"), "-12");
+  EXPECT_EQ(tomlNumber(".5"), "0.5");
+  EXPECT_EQ(tomlNumber("5."), "5.0");
+  EXPECT_EQ(tomlNumber("1E3"), "1000.0");
+  EXPECT_EQ(tomlNumber("9223372036854775807"), "9223372036854775807");
+  EXPECT_EQ(tomlNumber("9223372036854775808"), "9.223372036854776e+18");
+  for (const char *text : {"", ".", "5 ", "5a", "inf", "nan", "1e999", "16#1F"})
+    EXPECT_EQ(tomlNumber(text), std::nullopt) << text;
+  Model model;
+  model.tasks = {{"T", "007", "", "", {"P"}, {"a.EXP", 2}, {}}};
+  EXPECT_THAT(projectFiles(model, {"a", false})[0].text, HasSubstr("\npriority = 7\n"));
+}
+
 TEST(ProjectFiles, theReportNamesLossesFirst) {
   Model model;
   model.leftOut = {{{"a.EXP", 12}, "VISUALISATION Pic", "not imported"}};

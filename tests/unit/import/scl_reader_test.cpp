@@ -174,4 +174,26 @@ TEST(SclReader, KnowsItsFiles) {
   EXPECT_FALSE(isScl("FUNCTION_BLOCK x"));
 }
 
+TEST(SclReader, CommentsDoNotBeginAtTheirEnd) {
+  EXPECT_EQ(onlyText("FUNCTION_BLOCK F\nBEGIN\n(* a (*) #n := 1; (*(*) #m := 2;\n"
+                     "END_FUNCTION_BLOCK\n"),
+            "FUNCTION_BLOCK F\n\n(* a ( *) n := 1; (*( *) m := 2;\nEND_FUNCTION_BLOCK\n");
+}
+
+TEST(SclReader, DeclarationsThatDoNotEndTakeOnlyTheirBlock) {
+  const Model model = read("FUNCTION_BLOCK A\nVAR\n  n : Int;\nBEGIN\n  #n := 1;\n"
+                           "END_FUNCTION_BLOCK\n"
+                           "DATA_BLOCK D\nSTRUCT\n  m : Int;\nBEGIN\n  m := 3\nEND_DATA_BLOCK\n"
+                           "FUNCTION_BLOCK B\nVAR\n  k : Int;\nEND_VAR\nBEGIN\n  #k := 2;\n"
+                           "END_FUNCTION_BLOCK\n");
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(model.objects[0].name, "B");
+  EXPECT_EQ(model.objects[0].origin.line, 13U);
+  std::vector<std::string> lost;
+  for (const Remark &each : model.leftOut)
+    if (each.text.find("do not end") != std::string::npos)
+      lost.push_back(each.object);
+  EXPECT_EQ(lost, (std::vector<std::string>{"FUNCTION_BLOCK A", "DATA_BLOCK D"}));
+}
+
 } // namespace

@@ -178,5 +178,21 @@ TEST(ExpDiagram, deepTreesAreRefused) {
               ElementsAre(Field(&Problem::text, HasSubstr("too deep"))));
 }
 
+TEST(ExpLadder, aBoxIsEnabledOnlyInTheListOfItsRung) {
+  const std::string box = "_FUNCTION/_BOX_EXPR : 1/_ENABLED/_OPERAND/_EXPRESSION/_POSITIV/n/"
+                          "_EXPRESSION/_POSITIV/Log";
+  const std::string rung =
+      ladder("_LD_CONTACT/a/_EXPRESSION/_POSITIV", box, "_OUTPUTS : 1/_OUTPUT/_POSITIV/_NO_SET/x");
+  EXPECT_THAT(translate(rung).problems, IsEmpty());
+  for (const std::string &after : {"/" + box, "/_NETWORK//_COMMENT/''/_END_COMMENT/" + box})
+    EXPECT_THAT(translate(rung + after).problems,
+                ElementsAre(Field(&Problem::text, HasSubstr("outside the ENABLELIST"))));
+  std::string nested = "_LD_BODY/_NETWORKS : 1/_NETWORK//_COMMENT/''/_END_COMMENT";
+  for (int i = 0; i < 50000; ++i)
+    nested += "/_LD_ASSIGN/_LD_CONTACT/a/_EXPRESSION/_POSITIV/_EXPRESSION/_POSITIV/ENABLELIST : 1";
+  EXPECT_THAT(translate(nested).problems,
+              ElementsAre(Field(&Problem::text, HasSubstr("inside the ENABLELIST"))));
+}
+
 } // namespace
 } // namespace stc::import::networks

@@ -21,10 +21,11 @@ Translation translate(const std::string &body, const std::string &pou = "PROGRAM
                 "VAR_OUTPUT Q : BOOL; ET : TIME; END_VAR END_FUNCTION_BLOCK\n"
                 "FUNCTION_BLOCK Own VAR_INPUT EN : BOOL; END_VAR VAR_OUTPUT r : INT; END_VAR\n"
                 "END_FUNCTION_BLOCK\n"
+                "FUNCTION_BLOCK Count VAR_IN_OUT v : INT; END_VAR END_FUNCTION_BLOCK\n"
                 "FUNCTION Split : INT VAR_INPUT v : INT; w : INT := 2; END_VAR\n"
                 "VAR_OUTPUT rest : INT; END_VAR END_FUNCTION\n");
   scope.enter(pou + " P VAR a, b, c, d, x, y, z : BOOL; n, m, k : INT; tm : TON; own : Own;\n"
-                    "t : TIME; END_VAR");
+                    "t : TIME; c1, c2 : Count; END_VAR");
   Translation result;
   const LineOf offset = [](const pugi::xml_node &node) {
     return static_cast<size_t>(node.offset_debug());
@@ -271,6 +272,42 @@ TEST(PlcOpenDiagram, feedbackThroughAnOperator) {
       out(5, "x", wire("4")) + "</FBD>");
   EXPECT_EQ(loop.declarations, "VAR\n  and_out : BOOL;\nEND_VAR\n");
   EXPECT_EQ(loop.statements, "and_out := (a OR and_out) AND NOT b;\nx := and_out;\n");
+}
+
+TEST(PlcOpenDiagram, theRightSideOfAnInOutIsFoundBeforeItsBlock) {
+  const auto count = [](int id, const std::string &instance, const std::string &from) {
+    return "<block localId=\"" + std::to_string(id) + "\" typeName=\"Count\" instanceName=\"" +
+           instance + "\"><inputVariables/><inOutVariables>" + pin("v", from) +
+           "</inOutVariables><outputVariables/></block>";
+  };
+  const Translation chain =
+      translate("<FBD>" + out(7, "k", wire("5", "v")) + count(5, "c2", wire("6", "v")) +
+                count(6, "c1", wire("1")) + in(1, "n") + "</FBD>");
+  EXPECT_THAT(chain.problems, IsEmpty());
+  EXPECT_THAT(chain.statements, HasSubstr("c1(v := n);"));
+  EXPECT_THAT(chain.statements, HasSubstr("c2(v := n);"));
+  EXPECT_THAT(chain.statements, HasSubstr("k := n;"));
+  const Translation circle = translate("<FBD>" + count(5, "c2", wire("6", "v")) +
+                                       count(6, "c1", wire("5", "v")) + "</FBD>");
+  ASSERT_FALSE(circle.problems.empty());
+  EXPECT_THAT(circle.problems[0].text, HasSubstr("has no output `v`"));
+}
+
+TEST(PlcOpenDiagram, expressionsOfUnknownTypesEnd) {
+  using ::stc::import::networks::result;
+  for (const bool twice : {false, true}) {
+    std::string body = "<FBD>" + in(0, "strange") + in(9999, "odd");
+    for (int i = 1; i <= 2000; ++i) {
+      const std::string before = std::to_string(i - 1);
+      body += block(i, std::string("typeName=\"") + (i % 2 == 0 ? "ADD" : "MUL") + "\"",
+                    pin("In1", wire(before)) + pin("In2", wire(twice ? before : "9999")),
+                    result("Out"));
+    }
+    const Translation translation = translate(body + out(5000, "w", wire("2000")) + "</FBD>");
+    ASSERT_FALSE(translation.problems.empty());
+    EXPECT_THAT(translation.problems[0].text, HasSubstr("type of what"));
+    EXPECT_LT(translation.statements.size(), 20000U);
+  }
 }
 
 TEST(PlcOpenDiagram, whatCannotBeTakenIsNamed) {

@@ -74,5 +74,37 @@ TEST(Scope, givesNamesThatNobodyHas) {
   EXPECT_FALSE(scope.inFunction());
 }
 
+TEST(Scope, typesThatNameEachOtherHaveNoEnd) {
+  Scope scope;
+  std::string chain = "TYPE A : B; END_TYPE TYPE B : A; END_TYPE TYPE Own : OWN; END_TYPE\n"
+                      "TYPE C0 : STRUCT x : INT; END_STRUCT END_TYPE "
+                      "TYPE D0 : ARRAY [1..2] OF LINT; END_TYPE\n";
+  for (int i = 1; i < 34; ++i)
+    for (const char *name : {"C", "D"})
+      chain += "TYPE " + (name + std::to_string(i)) + " : " + (name + std::to_string(i - 1)) +
+               "; END_TYPE\n";
+  scope.declare(chain);
+  scope.enter("PROGRAM P VAR a : A; o : Own; c : C31; d : D30; e : C32; f : D31; END_VAR");
+  EXPECT_EQ(scope.typeOf("a.x"), "");
+  EXPECT_EQ(scope.typeOf("a[1]"), "");
+  EXPECT_EQ(scope.typeOf("o[1]"), "");
+  EXPECT_EQ(scope.typeOf("o.3"), "BOOL");
+  EXPECT_EQ(scope.typeOf("c.x"), "INT");
+  EXPECT_EQ(scope.typeOf("d[1]"), "LINT");
+  EXPECT_EQ(scope.typeOf("e.x"), "");
+  EXPECT_EQ(scope.typeOf("f[1]"), "");
+}
+
+TEST(Scope, pragmasAndCommentsDeclareNothing) {
+  Scope scope;
+  scope.declare("FUNCTION_BLOCK F VAR_INPUT {flag noread on} a : BOOL; /* (* b : INT; */ c : INT;\n"
+                "// d : INT;\n (* { *) e : {attribute 'x'} REAL; {open f : INT; END_VAR");
+  ASSERT_NE(scope.interfaceOf("F"), nullptr);
+  EXPECT_THAT(scope.interfaceOf("F")->inputs,
+              ElementsAre(Field(&Declared::name, "a"), Field(&Declared::name, "c"),
+                          Field(&Declared::name, "e")));
+  EXPECT_EQ(scope.interfaceOf("F")->inputs[2].type, "REAL");
+}
+
 } // namespace
 } // namespace stc::import::networks
