@@ -2,6 +2,7 @@
 
 #include "compiler/source/identifier.hpp"
 #include "compiler/syntax/characters.hpp"
+#include "compiler/syntax/instruction_list.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,24 +22,6 @@ struct Piece {
   size_t begin = 0;
   size_t end = 0;
 };
-
-size_t endOfComment(std::string_view text, size_t at) {
-  if (text.substr(at, 2) == "//")
-    return std::min(text.find('\n', at), text.size());
-  size_t depth = 0;
-  for (; at < text.size(); ++at) {
-    const std::string_view two = text.substr(at, 2);
-    if (two == "(*" || two == "/*") {
-      ++depth;
-      ++at;
-    } else if (two == "*)" || two == "*/") {
-      ++at;
-      if (--depth == 0)
-        return at + 1;
-    }
-  }
-  return text.size();
-}
 
 /// After the quote that closes the one at `at`.
 size_t endOfQuoted(std::string_view text, size_t at) {
@@ -60,7 +43,7 @@ Piece pieceAt(std::string_view text, size_t at) {
   const std::string_view two = text.substr(at, 2);
   const char c = text[at];
   if (two == "//" || two == "(*" || two == "/*")
-    return {Piece::Kind::Comment, at, endOfComment(text, at)};
+    return {Piece::Kind::Comment, at, commentEnd(text, at)};
   if (c == '{')
     return {Piece::Kind::Pragma, at, endOfPragma(text, at)};
   if (c == '\'' || c == '"')
@@ -311,6 +294,13 @@ private:
 };
 
 } // namespace
+
+bool isListBody(std::string_view body) {
+  size_t at = 0;
+  while (at < body.size() && isTrivia(pieceAt(body, at)))
+    at = pieceAt(body, at).end;
+  return isInstructionList(body.substr(at));
+}
 
 FileTexts declarationTexts(const File &file, std::string_view text) {
   Regions regions(file.id);

@@ -32,6 +32,9 @@ struct FileTexts {
 /// `text`: of the file. It has no errors.
 [[nodiscard]] FileTexts declarationTexts(const ast::File &file, std::string_view text);
 
+/// Whether the text of a body is an instruction list, as the parser decides it.
+[[nodiscard]] bool isListBody(std::string_view body);
+
 } // namespace stc::exporting
 
 #endif // STRIDE_COMPILER_EXPORT_DECLARATION_TEXTS_HPP

@@ -37,31 +37,10 @@ const char *pouTypeOf(DeclKind kind) {
                                       : "functionBlock";
 }
 
-/// Whether the text of a body begins with an instruction.
-bool isInstructionList(std::string_view body) {
-  constexpr std::array<std::string_view, 12> kFirst = {"ld",   "ldn", "cal", "calc", "calcn", "jmp",
-                                                       "jmpc", "and", "or",  "st",   "s",     "r"};
-  for (size_t at = 0; at < body.size();) {
-    const std::string_view rest = body.substr(at);
-    if (rest.starts_with("//")) {
-      at = std::min(body.find('\n', at), body.size());
-    } else if (rest.starts_with("(*")) {
-      at = std::min(body.find("*)", at), body.size() - 2) + 2;
-    } else if (rest.front() == ' ' || rest.front() == '\t' || rest.front() == '\n' ||
-               rest.front() == '\r') {
-      ++at;
-    } else {
-      const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n"));
-      return std::find(kFirst.begin(), kFirst.end(), lowerCase(word)) != kFirst.end();
-    }
-  }
-  return false;
-}
-
 void addBody(Node parent, const DeclarationText &text) {
   const std::string body = trimmedLines(text.body) + trimmedLines(text.tail);
   Node node = parent.append_child("body");
-  Writer::addXhtml(node.append_child(isInstructionList(body) ? "IL" : "ST"), body);
+  Writer::addXhtml(node.append_child(isListBody(body) ? "IL" : "ST"), body);
 }
 
 /// What is not in the head's text of our own members, but in XML.

@@ -65,6 +65,8 @@ void Writer::tasks(Node resource) const {
     }
     Node settings = addData(node, kCodesys, "tasksettings").append_child("TaskSettings");
     settings.append_attribute("KindOfTask") = kindOf(task.start);
+    if (!task.event.text.empty())
+      settings.append_attribute("Event") = task.event.text.c_str();
     if (task.intervalNs != 0 && task.event.text.empty()) {
       settings.append_attribute("Interval") = task.intervalNs / 1000;
       settings.append_attribute("IntervalUnit") = "us";

@@ -1,9 +1,12 @@
 #include "compiler/import/drawn_bodies.hpp"
 
-#include "compiler/import/exp_lines.hpp"
+#include "compiler/import/st_words.hpp"
+#include "compiler/source/identifier.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,24 +26,17 @@ size_t lineBegin(std::string_view text, size_t at) {
   return end == std::string_view::npos || at == 0 ? 0 : end + 1;
 }
 
-bool isWordAt(std::string_view text, size_t at, std::string_view word) {
-  const auto letter = [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  };
-  const size_t end = at + word.size();
-  return (at == 0 || !letter(text[at - 1])) && (end == text.size() || !letter(text[end]));
+bool isWord(std::string_view text, const StWord &word, std::string_view other) {
+  return equalIgnoringCase(text.substr(word.begin, word.end - word.begin), other);
 }
 
 /// Before the line after the last END_VAR in front of an offset; without one before the offset.
 size_t afterVariables(std::string_view text, size_t before) {
-  constexpr std::string_view kEnd = "END_VAR";
-  for (size_t at = text.rfind(kEnd, before); at != std::string_view::npos && at != 0;
-       at = text.rfind(kEnd, at - 1))
-    if (isWordAt(text, at, kEnd)) {
-      const size_t end = text.find('\n', at);
-      return end == std::string_view::npos ? before : std::min(end + 1, before);
-    }
-  return before;
+  size_t place = before;
+  for (const StWord &word : wordsOf(text.substr(0, before)))
+    if (isWord(text, word, "END_VAR"))
+      place = std::min(text.find('\n', word.end), before - 1) + 1;
+  return place;
 }
 
 /// The part of a POU that a place is in.
@@ -52,26 +48,40 @@ struct Part {
   size_t first = 0; ///< where the POU's first member begins
 };
 
+/// The words that begin lines and are followed by no sign: `set := x` is a statement.
+std::vector<StWord> lineBeginnings(std::string_view text) {
+  std::vector<StWord> found;
+  const std::vector<StWord> words = wordsOf(text);
+  for (size_t i = 0; i < words.size(); ++i) {
+    const size_t before = i == 0 ? 0 : words[i - 1].end;
+    const bool begins =
+        i == 0 || text.substr(before, words[i].begin - before).find('\n') != std::string_view::npos;
+    const bool sign = i + 1 < words.size() && words[i + 1].kind == StWord::Kind::Sign;
+    if (begins && !sign && words[i].kind == StWord::Kind::Name)
+      found.push_back(words[i]);
+  }
+  return found;
+}
+
 Part partAt(std::string_view text, size_t mark) {
   Part part;
   part.first = mark;
-  for (size_t at = 0; at < mark;) {
-    const size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = trimmed(text.substr(at, end - at));
-    const std::string_view word = firstWord(line);
-    const size_t next = std::min(end + 1, text.size());
-    if (part.pou == 0 && (word == "PROGRAM" || word == "FUNCTION" || word == "FUNCTION_BLOCK"))
+  for (const StWord &word : lineBeginnings(text.substr(0, mark))) {
+    const auto isAny = [&](std::initializer_list<std::string_view> others) {
+      return std::any_of(others.begin(), others.end(),
+                         [&](std::string_view other) { return isWord(text, word, other); });
+    };
+    const size_t next = std::min(text.find('\n', word.end), text.size() - 1) + 1;
+    if (part.pou == 0 && isAny({"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "CLASS"}))
       part.pou = part.body = next;
-    const bool action = word == "ACTION" || word == "TRANSITION";
-    if (action || word == "METHOD" || word == "PROPERTY" || word == "GET" || word == "SET") {
+    const bool action = isAny({"ACTION", "TRANSITION"});
+    if (action || isAny({"METHOD", "PROPERTY", "GET", "SET"})) {
       part.kind = action ? Part::Kind::Action : Part::Kind::Method;
       part.body = next;
-      part.first = std::min(part.first, at);
-    } else if (word == "END_ACTION" || word == "END_METHOD" || word == "END_PROPERTY" ||
-               word == "END_TRANSITION") {
+      part.first = std::min(part.first, lineBegin(text, word.begin));
+    } else if (isAny({"END_ACTION", "END_METHOD", "END_PROPERTY", "END_TRANSITION"})) {
       part.kind = Part::Kind::Pou;
     }
-    at = next;
   }
   return part;
 }

@@ -26,7 +26,12 @@ struct Remark {
 };
 
 /// What a piece of source text declares.
-enum class ObjectKind { Pou, Type, GlobalList };
+enum class ObjectKind {
+  Pou,
+  Type,
+  GlobalList,
+  Source, ///< a file as a whole, of which only the name of the file is known
+};
 
 /// Source text of a declaration with its body, in ST (or IL, or textual SFC).
 struct Object {
@@ -46,6 +51,8 @@ struct Task {
   std::vector<std::string> programs;
   Origin origin;
   std::string watchdog{}; ///< duration; empty: none
+  unsigned watchdogSensitivity = 1;
+  bool status = false; ///< it runs while `event` is TRUE, not once at its rising edge
 };
 
 /// A library that the project refers to.

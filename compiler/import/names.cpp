@@ -24,15 +24,20 @@ std::string_view kindOf(ObjectKind kind) {
     return "POU";
   case ObjectKind::Type:
     return "type";
+  case ObjectKind::Source:
+    return "source file";
   case ObjectKind::GlobalList:
     break;
   }
   return "global variable list";
 }
 
-/// Whether the names of the two can clash: lists have names of their own.
-bool sameScope(ObjectKind a, ObjectKind b) {
-  return (a == ObjectKind::GlobalList) == (b == ObjectKind::GlobalList);
+/// Whether the names of the two clash: lists have names of their own. The name of a source file
+/// declares nothing, but the same one may come twice.
+bool clash(const Object &a, const Object &b) {
+  if (a.kind == ObjectKind::Source || b.kind == ObjectKind::Source)
+    return a.kind == b.kind && a.text == b.text;
+  return (a.kind == ObjectKind::GlobalList) == (b.kind == ObjectKind::GlobalList);
 }
 
 /// The words only: comments and blanks may differ.
@@ -51,9 +56,8 @@ void takeObjectsOnce(Model &model) {
   for (Object &object : model.objects) {
     const std::string name = lowerCase(object.name);
     const auto [begin, end] = byName.equal_range(name);
-    const auto first = std::find_if(begin, end, [&](const auto &each) {
-      return sameScope(kept[each.second].kind, object.kind);
-    });
+    const auto first = std::find_if(
+        begin, end, [&](const auto &each) { return clash(kept[each.second], object); });
     if (first == end) {
       byName.emplace(name, kept.size());
       kept.push_back(std::move(object));
@@ -81,7 +85,7 @@ void takeObjectsOnce(Model &model) {
 
 bool sameTask(const Task &a, const Task &b) {
   return a.priority == b.priority && a.interval == b.interval && a.event == b.event &&
-         a.programs == b.programs;
+         a.status == b.status && a.programs == b.programs;
 }
 
 void takeTasksOnce(Model &model) {

@@ -3,6 +3,7 @@
 #include "compiler/import/networks/plcopen_networks.hpp"
 #include "compiler/import/networks/print.hpp"
 #include "compiler/import/plcopen_context.hpp"
+#include "compiler/import/st_scan.hpp"
 
 #include <sstream>
 #include <utility>
@@ -46,10 +47,17 @@ std::string drawingText(Context &context, const Node &body, const Node &drawing,
 } // namespace
 
 std::string errorPragma(std::string_view why) {
-  std::string text = "{error 'body not imported: ";
-  for (const char c : why)
-    text += c == '\'' || c == '}' || c == '{' || c == '\n' ? ' ' : c;
-  return text + "'}\n";
+  std::string text = quotedForSt(why);
+  for (char &c : text) // not all that looks for the end of a pragma knows texts
+    c = c == '}' || c == '{' ? ' ' : c;
+  return fmt::format("{{error 'body not imported: {}'}}\n", text);
+}
+
+void leaveOutMembers(Context &context, const Node &node, const std::string &object,
+                     const std::string &members) {
+  if (!members.empty())
+    context.leftOut(node, object,
+                    "the actions in its chart (SFC): only programs and blocks have actions");
 }
 
 std::string bodyText(Context &context, const Node &body, const Node &pou, const std::string &object,

@@ -212,9 +212,10 @@ private:
     const std::string indicator = attribute(action, "indicator");
     if (const Node body = child(action, "inline")) {
       name = fmt::format("{}_action{}", stepName, ++ownActions_);
-      std::string ignored;
+      std::string inner;
       members_ += fmt::format("\nACTION {}:\n{}END_ACTION\n", name,
-                              bodyText(context_, body, {}, object_ + "." + name, ignored));
+                              bodyText(context_, body, {}, object_ + "." + name, inner));
+      leaveOutMembers(context_, body, object_ + "." + name, inner);
     }
     if (name.empty())
       fail(action, fmt::format("an action of the step `{}` has no name", stepName));
@@ -296,6 +297,7 @@ private:
       fail(transition, "a transition has no condition");
       return {};
     }
+    visited_ = 0;
     return ofText(valueOf(inputs, transition, 0), transition, negated);
   }
 
@@ -321,6 +323,7 @@ private:
   /// The value at the end of these lines: of variables and of contacts in rows.
   std::string valueOf(const std::vector<std::string> &inputs, const Node &place, size_t depth) {
     constexpr size_t kDeepest = 200;
+    constexpr size_t kMostVisited = 1000; // lines that meet again double the text each time
     std::string text;
     for (const std::string &each : inputs) {
       const auto found = elements_.find(each);
@@ -330,6 +333,9 @@ private:
       std::string one;
       if (depth == kDeepest) {
         fail(place, "the condition of a transition leads in a circle");
+      } else if (++visited_ > kMostVisited) {
+        fail(place,
+             fmt::format("the condition of a transition has more than {} contacts", kMostVisited));
       } else if (kind == "leftPowerRail") {
         one = "TRUE";
       } else if (kind == "inVariable") {
@@ -338,10 +344,12 @@ private:
           one = fmt::format("NOT ({})", one);
       } else if (kind == "contact" && attribute(node, "edge").size() < 5) {
         one = negation + std::string(trimmed(textOf(child(node, "variable"))));
-        const std::string before = valueOf(inputsOf(node), place, depth + 1);
+        const std::vector<std::string> left = inputsOf(node);
+        if (left.empty())
+          fail(place, "the condition of a transition has a contact that no line leads to");
+        const std::string before = valueOf(left, place, depth + 1);
         if (before != "TRUE")
-          one = fmt::format("{} AND {}", inputsOf(node).size() > 1 ? "(" + before + ")" : before,
-                            one);
+          one = fmt::format("{} AND {}", isName(before) ? before : "(" + before + ")", one);
       } else {
         fail(place, fmt::format("the condition of a transition is drawn with a {}", kind));
       }
@@ -362,6 +370,7 @@ private:
   std::map<std::string, std::vector<std::string>> targets_; ///< of transitions
   std::vector<Transition> transitions_;
   size_t ownActions_ = 0;
+  size_t visited_ = 0; ///< elements of the condition that is read
 };
 
 } // namespace

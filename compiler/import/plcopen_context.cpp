@@ -1,6 +1,7 @@
 #include "compiler/import/plcopen_context.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/st_scan.hpp"
 
 #include "runtime/common/text.hpp"
 
@@ -40,12 +41,7 @@ void appendText(const Node &node, std::string &text) {
 }
 
 /// Text in apostrophes as a pragma holds it.
-std::string quotedText(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text)
-    result += c == '\'' ? "$'" : c == '\n' || c == '\r' ? " " : std::string(1, c);
-  return result + "'";
-}
+std::string quotedText(std::string_view text) { return fmt::format("'{}'", quotedForSt(text)); }
 
 } // namespace
 

@@ -144,6 +144,9 @@ void readInterface(Context &context, const Node &node);
                                    const std::string &object, std::string &members);
 /// Text of a pragma that stops the compiler where a body is missing.
 [[nodiscard]] std::string errorPragma(std::string_view why);
+/// Reports the members that the chart of a method, an accessor or an action would need.
+void leaveOutMembers(Context &context, const Node &node, const std::string &object,
+                     const std::string &members);
 
 // ---- plcopen_chart.cpp
 

@@ -1,10 +1,13 @@
 // The device tree of CODESYS V3 in PLCopen XML: drives become simulated ones.
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/plcopen_context.hpp"
+#include "compiler/import/project_files.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -26,10 +29,17 @@ void collectParameters(const Node &node, std::vector<Node> &out) {
       collectParameters(each, out);
 }
 
-bool isNumber(const std::string &text) {
+/// As TOML has numbers, which knows neither `.5` nor `007`; empty: the text is none.
+std::string tomlNumber(const std::string &text) {
   char *end = nullptr;
-  (void)std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0';
+  const long long whole = std::strtoll(text.c_str(), &end, 10);
+  const bool fits = whole != std::numeric_limits<long long>::max() &&
+                    whole != std::numeric_limits<long long>::min();
+  if (!text.empty() && *end == '\0' && fits)
+    return fmt::format("{}", whole);
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value) ? fmt::format("{}", value)
+                                                               : std::string();
 }
 
 } // namespace
@@ -49,8 +59,9 @@ void readDevice(Context &context, const Node &configuration, std::vector<DriveSe
     const auto *const known =
         std::find_if(kDriveParameters.begin(), kDriveParameters.end(),
                      [&](std::string_view parameter) { return sameName(parameter, key); });
-    if (known != kDriveParameters.end() && isNumber(value))
-      drive.parameters.push_back({std::string(*known), value, Certainty::Guessed,
+    const std::string number = tomlNumber(value);
+    if (known != kDriveParameters.end() && !number.empty())
+      drive.parameters.push_back({std::string(*known), number, Certainty::Guessed,
                                   "the drive of CODESYS V3, whose units may be others"});
   }
   const size_t others = parameters.size() - drive.parameters.size();
@@ -77,7 +88,7 @@ void addDrives(Context &context, std::vector<DriveSetup> drives, const std::stri
   group.origin = drives.front().origin;
   if (!task.empty())
     group.parameters.push_back(
-        {"sTask", "\"" + task + "\"", Certainty::Guessed, "the first task with an interval"});
+        {"sTask", tomlText(task), Certainty::Guessed, "the first task with an interval"});
   group.drives = std::move(drives);
   BusSetup bus;
   bus.name = "SoftMotion";

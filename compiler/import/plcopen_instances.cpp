@@ -78,6 +78,25 @@ std::optional<double> numberWithUnit(const std::string &text, const std::string 
   return std::nullopt;
 }
 
+/// 0 and nothing are 1.
+unsigned sensitivityOf(Context &context, const Node &watchdog, const std::string &object) {
+  constexpr unsigned long kMost = 1000;
+  const std::string text = attribute(watchdog, "Sensitivity");
+  const bool number =
+      std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!number) {
+    context.leftOut(watchdog, object,
+                    fmt::format("the sensitivity `{}` of its watchdog is no number", text));
+    return 1;
+  }
+  const unsigned long value = std::strtoul(text.c_str(), nullptr, 10);
+  if (value > kMost)
+    context.changed(
+        watchdog, object,
+        fmt::format("the sensitivity {} of its watchdog became {}, the highest", text, kMost));
+  return static_cast<unsigned>(std::clamp(value, 1UL, kMost));
+}
+
 /// The kinds of tasks that CODESYS has beside those of the standard.
 void readSettings(Context &context, const Node &node, ResourceTask &task) {
   const Node settings = extra(node, "TaskSettings");
@@ -89,7 +108,10 @@ void readSettings(Context &context, const Node &node, ResourceTask &task) {
   if (kind == "Freewheeling")
     task.task.interval.clear();
   if (kind == "Event" || kind == "Status") {
-    task.task.event = attribute(settings, "Event");
+    // Some tools say it with the attribute of the standard only.
+    if (const std::string event = attribute(settings, "Event"); !event.empty())
+      task.task.event = event;
+    task.task.status = kind == "Status";
     task.task.interval.clear();
   }
   const bool known = kind.empty() || kind == "Cyclic" || kind == "Freewheeling";
@@ -99,9 +121,11 @@ void readSettings(Context &context, const Node &node, ResourceTask &task) {
                                 "stride.toml",
                                 kind));
   const Node watchdog = child(settings, "Watchdog");
-  if (isTrue(watchdog, "Enabled"))
-    task.task.watchdog =
-        durationText(attribute(watchdog, "Time"), unitOf(attribute(watchdog, "TimeUnit")));
+  if (!isTrue(watchdog, "Enabled"))
+    return;
+  task.task.watchdog =
+      durationText(attribute(watchdog, "Time"), unitOf(attribute(watchdog, "TimeUnit")));
+  task.task.watchdogSensitivity = sensitivityOf(context, watchdog, object);
 }
 
 std::string priorityOf(Context &context, const Node &node, const std::string &object) {
@@ -222,7 +246,7 @@ public:
     std::string text = fmt::format("CONFIGURATION {}\n", name_);
     for (const Resource &each : resources_)
       text += resourceText(each);
-    reportWatchdogs();
+    reportTasks();
     context_.add(ObjectKind::Pou, first_, name_,
                  fmt::format("{}{}END_CONFIGURATION\n", text, lists_));
   }
@@ -284,14 +308,26 @@ private:
   }
 
   /// A CONFIGURATION cannot say them.
-  void reportWatchdogs() {
+  void reportTasks() {
     for (const Resource &resource : resources_)
-      for (const ResourceTask &each : resource.tasks)
+      for (const ResourceTask &each : resource.tasks) {
+        const std::string object = "task " + each.task.name;
+        const unsigned sensitivity = each.task.watchdogSensitivity;
         if (!each.task.watchdog.empty())
-          context_.leftOut(each.node, "task " + each.task.name,
-                           fmt::format("its watchdog of {}: add [[task]] with `name` and "
-                                       "`watchdog` to stride.toml",
-                                       each.task.watchdog));
+          context_.leftOut(
+              each.node, object,
+              fmt::format("its watchdog of {}: add [[task]] with `name` and `watchdog`{} to "
+                          "stride.toml",
+                          each.task.watchdog,
+                          sensitivity == 1
+                              ? std::string()
+                              : fmt::format(" and `watchdog_sensitivity = {}`", sensitivity)));
+        if (each.task.status)
+          context_.leftOut(each.node, object,
+                           fmt::format("it runs while `{}` is TRUE (Status); SINGLE of a "
+                                       "CONFIGURATION starts it at a rising edge",
+                                       each.task.event));
+      }
   }
 
   Context &context_;

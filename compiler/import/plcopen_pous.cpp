@@ -94,6 +94,7 @@ std::string method(Context &context, const Node &node, const std::string &owner)
   std::string members;
   std::string text = declarationOf(context, node, "METHOD", name, owner + "_" + name);
   text += bodiesOf(context, node, {}, object, members) + "END_METHOD\n";
+  leaveOutMembers(context, node, object, members);
   return text;
 }
 
@@ -111,9 +112,11 @@ std::string accessor(Context &context, const Node &node, std::string_view word,
   if (declarations.empty())
     declarations = sectionsText(context, interface, owner);
   std::string members;
+  const std::string body = bodiesOf(context, node, {}, owner, members);
+  leaveOutMembers(context, node, owner, members);
   return fmt::format("{}\n{}{}END_{}\n",
                      trimmed(fmt::format("{} {}", word, modifiersOf(interface))), declarations,
-                     bodiesOf(context, node, {}, owner, members), word);
+                     body, word);
 }
 
 std::string property(Context &context, const Node &node, const std::string &owner) {

@@ -78,7 +78,7 @@ void readExtra(Context &context, const Node &element, const std::string &listNam
 /// Text that `stride export plcopen` keeps because no element can say it.
 void readSource(Context &context, const Node &element) {
   const std::string name = attribute(element, "name");
-  context.add(ObjectKind::Pou, element, isName(name) ? name : "Source", linesOf(element));
+  context.add(ObjectKind::Source, element, isName(name) ? name : "Source", linesOf(element));
 }
 
 } // namespace

@@ -69,7 +69,8 @@ std::string pathOf(const Object &object, std::map<std::string, size_t> &taken) {
 std::string tomlOf(const Task &task) {
   std::string text = fmt::format("\n[[task]]\nname = {}\n", tomlText(task.name));
   if (!task.event.empty())
-    text += fmt::format("kind = \"event\"\nevent = {}\n", tomlText(task.event));
+    text += fmt::format("kind = \"{}\"\nevent = {}\n", task.status ? "status" : "event",
+                        tomlText(task.event));
   else if (task.interval.empty())
     text += "kind = \"freewheeling\"\n";
   if (!task.interval.empty())
@@ -79,6 +80,8 @@ std::string tomlOf(const Task &task) {
         fmt::format("priority = {}\n", tomlNumber(task.priority).value_or(tomlText(task.priority)));
   if (!task.watchdog.empty())
     text += fmt::format("watchdog = {}\n", tomlText(task.watchdog));
+  if (!task.watchdog.empty() && task.watchdogSensitivity != 1)
+    text += fmt::format("watchdog_sensitivity = {}\n", task.watchdogSensitivity);
   text += "programs = [";
   for (size_t i = 0; i < task.programs.size(); ++i)
     text += (i == 0 ? "" : ", ") + tomlText(task.programs[i]);

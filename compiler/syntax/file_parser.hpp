@@ -113,7 +113,6 @@ private:
   // Instruction lists.
   bool instructionList(Content &out);
   [[nodiscard]] size_t afterBlanks(size_t at, bool inLine) const;
-  [[nodiscard]] bool instructionAt(size_t at) const;
   void readInstruction(std::vector<Instruction> &list);
   std::string readOperator(std::vector<Token> &line);
   void readOperands(std::vector<Token> &line, bool nests);

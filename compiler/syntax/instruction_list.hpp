@@ -1,7 +1,8 @@
 #ifndef STRIDE_COMPILER_SYNTAX_INSTRUCTION_LIST_HPP
 #define STRIDE_COMPILER_SYNTAX_INSTRUCTION_LIST_HPP
 // Instruction List, the line-oriented language of IEC 61131-3: its operators, and how a body of
-// instructions becomes the statements of Structured Text. Internal to compiler/syntax.
+// instructions becomes the statements of Structured Text. Internal to compiler/syntax, but for
+// isInstructionList().
 
 #include "compiler/source/arena.hpp"
 #include "compiler/source/diagnostic.hpp"
@@ -32,6 +33,10 @@ struct InstructionOperator {
 
 /// Null: the word (in any case of letters) is no operator.
 [[nodiscard]] const InstructionOperator *findInstruction(std::string_view word);
+
+/// Whether the text of a body is an instruction list: its first instruction, after a label or not,
+/// is no statement of Structured Text. So the parser decides it, too; pragmas must not precede it.
+[[nodiscard]] bool isInstructionList(std::string_view body);
 
 /// True for an operator with a modifier that it does not have (`LDC`).
 [[nodiscard]] bool hasWrongModifier(std::string_view word);

@@ -66,6 +66,34 @@ TEST(DeclarationTexts, KeepsSignsInTextsAndComments) {
   EXPECT_EQ(text.body, "\n(* (* nested *) METHOD *) f := '(*'; f := \"{\" = \"}\" ;\n");
 }
 
+/// Only `(*` nests, and only in `(*`.
+TEST(DeclarationTexts, EndsCommentsWhereTheScannerDoes) {
+  const Cut cut("(* files: lib/*.st *)\nPROGRAM A\nVAR n : INT; END_VAR\n"
+                "/* one (* of /* two */ n := 7; // (* /*\nEND_PROGRAM\n"
+                "(* */ (* *) *)\nPROGRAM B\nEND_PROGRAM\n");
+  const DeclarationText &first = cut.of(cut.pou());
+  EXPECT_EQ(first.leading, "(* files: lib/*.st *)\n");
+  EXPECT_EQ(first.declaration, "PROGRAM A\nVAR n : INT; END_VAR");
+  EXPECT_EQ(first.body, "\n/* one (* of /* two */ n := 7; // (* /*\n");
+  EXPECT_EQ(cut.of(cut.pou(1)).leading, "\n(* */ (* *) *)\n");
+  EXPECT_EQ(cut.of(cut.pou(1)).declaration, "PROGRAM B");
+}
+
+/// As the parser decides it: names of instructions are names of variables, too.
+TEST(DeclarationTexts, KnowsInstructionLists) {
+  using stc::exporting::isListBody;
+  for (const char *list :
+       {"LD a\nST b\n", "(*)*) ldn x // y\n", "{info 'x'}\nxorn b\n", "again: LD -1\n",
+        "STN %QX0.0\n", "CALCN timer(IN := a)\n", "JMP again\n", "RETC\nLD a\n", "RET",
+        "jmpcn over\nover: LD 3\n", "GE 5\n", "CAL\ttimer\n"})
+    EXPECT_TRUE(isListBody(list)) << list;
+  for (const char *statements :
+       {"s := 1;\n", "r(IN := x);\n", "st.x := 2;\n", "ld[3] := 1;\n", "LD^ := 4;\n", "s S= x;\n",
+        "(* LD a *)\nx := 1;\n", "(*) LD a *) x := 1;\n", "", "// LD a", "ret();\n", "JMP again;\n",
+        "add := b;\n", "s (* of *) := 1;\n", "LDX a\n", "ld: s := 2;\n", "r\n:= 3;\n"})
+    EXPECT_FALSE(isListBody(statements)) << statements;
+}
+
 TEST(DeclarationTexts, CutsTypesOfOneBlock) {
   const Cut cut("// first\nTYPE A : INT := 3; // of A\n  {attribute 'strict'}\n  E : (x, y);\n"
                 "END_TYPE\nVAR_GLOBAL CONSTANT\n  k : INT := 4;\nEND_VAR\n");

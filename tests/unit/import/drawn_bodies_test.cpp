@@ -71,6 +71,41 @@ TEST(DrawnBodies, newVariablesAreDeclaredInThePou) {
               HasSubstr("PROGRAM P\nVAR\n  rung : BOOL;\nEND_VAR\n\nACTION Act:\n"));
 }
 
+/// A drawing in place of `@`.
+std::string drawnIn(std::string text) {
+  Model model;
+  const std::string mark = markDrawnBody(model, {"a.xml", 3}, "P", "LD",
+                                         [](networks::Scope &) {
+                                           networks::Translation result;
+                                           result.statements = "x := rung;\n";
+                                           result.declarations = "VAR\n  rung : BOOL;\nEND_VAR\n";
+                                           return result;
+                                         },
+                                         {});
+  text.replace(text.find('@'), 2, mark);
+  model.objects.push_back({ObjectKind::Pou, "P", {}, text, {"a.xml", 1}});
+  translateDrawnBodies(model, {});
+  return model.objects[0].text;
+}
+
+TEST(DrawnBodies, keywordsHaveAnyCaseAndStandInNoComments) {
+  const std::string variables = "VAR\n  rung : BOOL;\nEND_VAR\n";
+  // The POU of an action, in small letters, without and with variables.
+  EXPECT_EQ(drawnIn("// about\nprogram P\nset := 2;\naction Act:\n@\nend_action\nend_program\n"),
+            "// about\nprogram P\n" + variables +
+                "set := 2;\naction Act:\nx := rung;\nend_action\nend_program\n");
+  EXPECT_EQ(drawnIn("Class P\nvar n : INT; end_var // one\n(*\nEND_VAR\nACTION a\n*)\n"
+                    "Action Act:\n@\nEnd_Action\nEnd_Class\n"),
+            "Class P\nvar n : INT; end_var // one\n" + variables +
+                "(*\nEND_VAR\nACTION a\n*)\nAction Act:\nx := rung;\nEnd_Action\nEnd_Class\n");
+  EXPECT_EQ(drawnIn("function_block P\nvar n : INT; end_var\nn := 1;\nmethod m : INT\n"
+                    "var_input i : INT; end_var\n(*\nEND_METHOD *)\n@\nend_method\n"
+                    "end_function_block\n"),
+            "function_block P\nvar n : INT; end_var\nn := 1;\nmethod m : INT\n"
+            "var_input i : INT; end_var\nVAR_INST\n  rung : BOOL;\nEND_VAR\n(*\nEND_METHOD *)\n"
+            "x := rung;\nend_method\nend_function_block\n");
+}
+
 TEST(DrawnBodies, aBodyThatCannotBeTranslatedIsAnErrorOfTheCompiler) {
   const Model model =
       read("PROGRAM P\n_FBD_BODY\n_NETWORKS : 1\n_NETWORK\n_MYSTERY\nEND_PROGRAM\n");

@@ -105,6 +105,79 @@ TEST(PlcOpenChart, ReadsActionsAndContacts) {
             "\nACTION Start_action1:\nn := n + 1;\nEND_ACTION\nEND_PROGRAM\n");
 }
 
+std::string contact(int id, const std::string &variable, const std::vector<int> &from,
+                    const std::string &more = {}) {
+  std::string lines;
+  for (const int each : from)
+    lines += fmt::format("<connection refLocalId=\"{}\"/>", each);
+  return fmt::format("<contact localId=\"{}\"{}><connectionPointIn>{}</connectionPointIn>"
+                     "<variable>{}</variable></contact>",
+                     id, more, lines, variable);
+}
+
+/// A chart with one step, whose only transition has the condition at the end of these elements.
+Model withCondition(const std::string &elements, int last) {
+  return read("<leftPowerRail localId=\"90\"/>" + step(1, "Start", {11}, true) + elements +
+              transition(11, 1,
+                         fmt::format("<connectionPointIn><connection refLocalId=\"{}\"/>"
+                                     "</connectionPointIn>",
+                                     last)));
+}
+
+TEST(PlcOpenChart, BracketsWhatStandsBeforeAContact) {
+  const std::string before =
+      "<inVariable localId=\"40\"><expression>a OR b</expression></inVariable>";
+  EXPECT_NE(withCondition(before + contact(41, "c", {40}, " negated=\"true\""), 41)
+                .objects.front()
+                .text.find(":= (a OR b) AND NOT c;"),
+            std::string::npos);
+  EXPECT_NE(withCondition(contact(40, "a", {90}) + contact(41, "c", {40}), 41)
+                .objects.front()
+                .text.find(":= a AND c;"),
+            std::string::npos);
+  const Model alone = withCondition(contact(40, "c", {}), 40);
+  ASSERT_EQ(alone.leftOut.size(), 1U);
+  EXPECT_NE(alone.leftOut[0].text.find("a contact that no line leads to"), std::string::npos);
+}
+
+/// Pairs of contacts in a row, each of which both of the next begin at: 2^n paths.
+TEST(PlcOpenChart, RefusesConditionsOfManyPaths) {
+  const auto pairs = [](int count) {
+    std::string text = contact(100, "a", {90}) + contact(101, "b", {90});
+    for (int i = 1; i < count; ++i)
+      for (int k = 0; k < 2; ++k)
+        text += contact(100 + 2 * i + k, "c", {98 + 2 * i, 99 + 2 * i});
+    return withCondition(text, 100 + 2 * (count - 1));
+  };
+  EXPECT_TRUE(pairs(8).leftOut.empty());
+  const Model many = pairs(60);
+  ASSERT_EQ(many.leftOut.size(), 1U);
+  EXPECT_NE(many.leftOut[0].text.find("more than 1000 contacts"), std::string::npos);
+}
+
+/// A member of a member: the chart in an action needs actions of its own.
+TEST(PlcOpenChart, ReportsActionsThatHaveNoPlace) {
+  const std::string inner = "<actionBlock localId=\"30\"><connectionPointIn><connection "
+                            "refLocalId=\"1\"/></connectionPointIn><action localId=\"31\"><inline>"
+                            "{}</inline></action></actionBlock>";
+  const std::string text = "<ST><p>n := 1;</p></ST>";
+  const auto chart = [&](const std::string &action) {
+    return step(1, "Go", {11}, true) + transition(11, 1, inlineText("TRUE")) +
+           fmt::format(fmt::runtime(inner), action);
+  };
+  EXPECT_TRUE(read(chart(text)).leftOut.empty());
+  const Model nested = read(chart("<SFC>" + chart(text) + "</SFC>"));
+  ASSERT_EQ(nested.leftOut.size(), 1U);
+  EXPECT_EQ(nested.leftOut[0].object, "Chart.Go_action1");
+  const std::string method =
+      "<addData><data name=\"x\" handleUnknown=\"implementation\"><Method name=\"Do\"><interface/>"
+      "<body><SFC>" +
+      chart(text) + "</SFC></body></Method></data></addData>";
+  const Model block = read(chart(text), method);
+  ASSERT_EQ(block.leftOut.size(), 1U);
+  EXPECT_EQ(block.leftOut[0].object, "Chart.Do");
+}
+
 /// Each is left out as a whole, with the compiler stopped in its place.
 TEST(PlcOpenChart, RefusesWhatItCannotFollow) {
   const std::string wrong[] = {

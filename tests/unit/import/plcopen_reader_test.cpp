@@ -1,5 +1,6 @@
 // PLCopen XML: what becomes of types, POUs, tasks, and of what is not known.
 #include "compiler/import/drawn_bodies.hpp"
+#include "compiler/import/names.hpp"
 #include "compiler/import/plcopen_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -175,6 +176,84 @@ TEST(PlcOpen, ReadsTasksOfCodesys) {
   EXPECT_EQ(remarks(model.changed), "6: task Idle: its priority 99 became 31, the lowest\n");
 }
 
+std::string task(const std::string &attributes, const std::string &settings,
+                 const std::string &watchdog = {}) {
+  return fmt::format("<task {} priority=\"2\"><pouInstance name=\"P\" typeName=\"\"/>{}</task>",
+                     attributes,
+                     data(fmt::format("<TaskSettings {}>{}</TaskSettings>", settings, watchdog)));
+}
+
+std::string plant(const std::string &tasks) {
+  return "<configuration name=\"Plc\"><resource name=\"App\">" + tasks +
+         "</resource></configuration>";
+}
+
+TEST(PlcOpen, ReadsWhatStartsATask) {
+  const auto watchdog = [](const std::string &sensitivity) {
+    return fmt::format(
+        "<Watchdog Enabled=\"true\" Time=\"8000\" TimeUnit=\"us\" Sensitivity=\"{}\"/>",
+        sensitivity);
+  };
+  const Model model = read(project(
+      "", "",
+      plant(task("name=\"Single\" single=\"GVL.go\"", "KindOfTask=\"Event\"", watchdog("0")) +
+            task("name=\"Both\" single=\"GVL.go\"", "KindOfTask=\"Event\" Event=\"GVL.other\"",
+                 watchdog("1000")) +
+            task("name=\"While\"", "KindOfTask=\"Status\" Event=\"GVL.on\"", watchdog("1001")) +
+            task("name=\"None\"", "KindOfTask=\"Status\"", watchdog("often")))));
+  ASSERT_EQ(model.tasks.size(), 4U);
+  EXPECT_EQ(model.tasks[0].event, "GVL.go");
+  EXPECT_FALSE(model.tasks[0].status);
+  EXPECT_EQ(model.tasks[0].watchdogSensitivity, 1U);
+  EXPECT_EQ(model.tasks[1].event, "GVL.other");
+  EXPECT_EQ(model.tasks[1].watchdogSensitivity, 1000U);
+  EXPECT_EQ(model.tasks[2].event, "GVL.on");
+  EXPECT_TRUE(model.tasks[2].status);
+  EXPECT_EQ(model.tasks[2].watchdogSensitivity, 1000U);
+  EXPECT_EQ(remarks(model.changed),
+            "6: task While: the sensitivity 1001 of its watchdog became 1000, the highest\n");
+  EXPECT_EQ(remarks(model.leftOut),
+            "6: task None: it is of the kind Status; give it an `interval` or an `event` in "
+            "stride.toml\n"
+            "6: task None: the sensitivity `often` of its watchdog is no number\n");
+}
+
+TEST(PlcOpen, SaysWhatAConfigurationCannotSayOfATask) {
+  std::string tasks = task("name=\"While\"", "KindOfTask=\"Status\" Event=\"on\"",
+                           "<Watchdog Enabled=\"true\" Time=\"7\" TimeUnit=\"ms\" "
+                           "Sensitivity=\"3\"/>");
+  tasks.replace(tasks.find("typeName=\"\""), 11, "typeName=\"Q\"");
+  EXPECT_EQ(remarks(read(project("", "", plant(tasks))).leftOut),
+            "6: task While: its watchdog of T#7ms: add [[task]] with `name` and `watchdog` and "
+            "`watchdog_sensitivity = 3` to stride.toml\n"
+            "6: task While: it runs while `on` is TRUE (Status); SINGLE of a CONFIGURATION starts "
+            "it at a rising edge\n");
+}
+
+TEST(PlcOpen, QuotesTextsOfAttributes) {
+  const Model model = read(
+      project("", "<pou name=\"P\" pouType=\"program\"><interface>" +
+                      data("<Attributes><Attribute Name=\"a\" Value=\"5$ 'x'\"/></Attributes>") +
+                      "</interface>" + body("x;") + "</pou>"));
+  EXPECT_EQ(textOf(model, "P"), "{attribute 'a' := '5$$ $'x$''}\nPROGRAM P\n\nx;\nEND_PROGRAM\n");
+}
+
+/// Files of one name in two folders declare different things.
+TEST(PlcOpen, KeepsWholeFilesOfOneName) {
+  Model model = read(
+      project("", "<pou name=\"Line\" pouType=\"program\"><interface/>" + body("x;") + "</pou>", "",
+              data("<Source name=\"Line\">PROGRAM A\nEND_PROGRAM</Source>") +
+                  data("<Source name=\"Line\">PROGRAM B\nEND_PROGRAM</Source>") +
+                  data("<Source name=\"Line\">PROGRAM A\nEND_PROGRAM</Source>")));
+  stc::import::takeOnce(model);
+  ASSERT_EQ(model.objects.size(), 3U);
+  EXPECT_EQ(model.objects[1].text, "PROGRAM A\nEND_PROGRAM\n");
+  EXPECT_EQ(model.objects[2].text, "PROGRAM B\nEND_PROGRAM\n");
+  EXPECT_EQ(remarks(model.leftOut), "");
+  ASSERT_EQ(model.changed.size(), 1U);
+  EXPECT_EQ(model.changed[0].object, "source file Line");
+}
+
 TEST(PlcOpen, MakesAConfigurationOfInstances) {
   const Model model = read(
       project("", "",
@@ -215,7 +294,11 @@ TEST(PlcOpen, MakesDrivesOfTheDeviceTree) {
       device("Lift", parameter("dwRatioTechUnitsDenom", "160") + parameter("fSWMaxJerk", "8.5e3") +
                          parameter("fSWMaxVelocity", "fast") + parameter("Colour", "3")) +
           device("Coupler", parameter("Modulecode", "16#8401")) + device("Empty", "") +
-          device("Belt", parameter("IRATIOTECHUNITSNUM", "9"))));
+          device("Belt", parameter("IRATIOTECHUNITSNUM", "007") +
+                             parameter("fSWMaxVelocity", ".25") + parameter("fSWMaxJerk", "inf") +
+                             parameter("fSWMaxAcceleration", "1e300")) +
+          plant(task("name=\"Fa&quot;st\"", "KindOfTask=\"Cyclic\" Interval=\"4\"") +
+                task("name=\"Slow\"", "KindOfTask=\"Cyclic\" Interval=\"40\""))));
   ASSERT_EQ(model.buses.size(), 1U);
   ASSERT_EQ(model.buses[0].groups.size(), 1U);
   const auto &drives = model.buses[0].groups[0].drives;
@@ -224,12 +307,19 @@ TEST(PlcOpen, MakesDrivesOfTheDeviceTree) {
   ASSERT_EQ(drives[0].parameters.size(), 3U);
   EXPECT_EQ(drives[0].parameters[1].key, "dwRatioTechUnitsDenom");
   EXPECT_EQ(drives[0].parameters[1].value, "160");
-  EXPECT_EQ(drives[0].parameters[2].value, "8.5e3");
+  EXPECT_EQ(drives[0].parameters[2].value, "8500");
   EXPECT_EQ(drives[1].parameters[0].value, "2"); // wDriveId
+  ASSERT_EQ(drives[1].parameters.size(), 4U);
   EXPECT_EQ(drives[1].parameters[1].key, "iRatioTechUnitsNum");
+  EXPECT_EQ(drives[1].parameters[1].value, "7");
+  EXPECT_EQ(drives[1].parameters[2].value, "0.25");
+  EXPECT_EQ(drives[1].parameters[3].value, "1e+300");
+  ASSERT_EQ(model.buses[0].groups[0].parameters.size(), 1U);
+  EXPECT_EQ(model.buses[0].groups[0].parameters[0].value, "\"Fa\\\"st\"");
   EXPECT_EQ(remarks(model.leftOut),
             "6: drive Lift: its other parameters (2)\n"
-            "6: device Coupler: its parameters (1): hardware is configured in stride.toml\n");
+            "6: device Coupler: its parameters (1): hardware is configured in stride.toml\n"
+            "6: drive Belt: its other parameters (1)\n");
 }
 
 TEST(PlcOpen, KeepsBlocksOfAListApart) {

@@ -34,14 +34,17 @@ TEST(ProjectFiles, tasksAreThoseOfTheProjectFile) {
   Model model;
   model.tasks = {{"Fast", "3", "T#5ms", "", {"P", "Q"}, {"a.EXP", 2}, {}},
                  {"Go", "0", "", "s = \"a\"", {"R"}, {"a.EXP", 5}, {}},
-                 {"Free", "", "", "", {}, {"a.EXP", 8}, {}}};
+                 {"Free", "", "", "", {}, {"a.EXP", 8}, {}},
+                 {"While", "1", "", "on", {"S"}, {"a.EXP", 9}, "T#7ms", 3, true}};
   EXPECT_EQ(
       projectFiles(model, {"a\"b", false})[0].text,
       "[project]\nname = \"a\\\"b\"\n"
       "\n[[task]]\nname = \"Fast\"\ninterval = \"T#5ms\"\npriority = 3\nprograms = [\"P\", \"Q\"]\n"
       "\n[[task]]\nname = \"Go\"\nkind = \"event\"\nevent = \"s = \\\"a\\\"\"\npriority = "
       "0\nprograms = [\"R\"]\n"
-      "\n[[task]]\nname = \"Free\"\nkind = \"freewheeling\"\nprograms = []\n");
+      "\n[[task]]\nname = \"Free\"\nkind = \"freewheeling\"\nprograms = []\n"
+      "\n[[task]]\nname = \"While\"\nkind = \"status\"\nevent = \"on\"\npriority = 1\n"
+      "watchdog = \"T#7ms\"\nwatchdog_sensitivity = 3\nprograms = [\"S\"]\n");
 }
 
 TEST(ProjectFiles, numbersOfOtherToolsBecomeThoseOfToml) {
