@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <vector>
 
-
 namespace stc {
 
 using namespace ast;
