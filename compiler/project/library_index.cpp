@@ -18,7 +18,7 @@ static bool isQualifiedOnly(const EmbeddedFile &file) {
 static bool isForeign(const EmbeddedFile &file) {
   static constexpr std::string_view kForeign[] = {"CAA_Memory",  "CAA_Types", "Standard64",
                                                   "StringUtils", "SysTime",   "SysTypes",
-                                                  "Tc2_Math",    "Tc2_System"};
+                                                  "Tc2_MC2",     "Tc2_Math",  "Tc2_System"};
   return std::find(std::begin(kForeign), std::end(kForeign), file.library) != std::end(kForeign);
 }
 

@@ -173,6 +173,29 @@ static bool checkNames(const Chart &chart, const std::vector<ast::VarDecl *> &va
   return good;
 }
 
+/// As an action, its name would mean the variable: a call without effect.
+static bool checkActionNames(const Chart &chart, Diagnostics &diagnostics) {
+  bool good = true;
+  std::map<Ident, Span> steps;
+  for (const ChartStep &step : chart.steps)
+    steps.emplace(step.name.id, step.name.span);
+  for (const ChartStep &step : chart.steps) {
+    for (const ChartAction &action : step.actions) {
+      const auto found = steps.find(action.name.id);
+      if (found == steps.end())
+        continue;
+      good = false;
+      diagnostics
+          .report(Code::DuplicateName, action.name.span,
+                  "the name `" + std::string(action.name.text) + "` is that of a step",
+                  "named as an action here")
+          .label(found->second, "the step")
+          .help("give the action another name: each step is a variable of the POU");
+    }
+  }
+  return good;
+}
+
 static bool checkInitialStep(const Chart &chart, Diagnostics &diagnostics) {
   bool good = true;
   const ChartStep *initial = nullptr;
@@ -200,6 +223,7 @@ bool checkChart(const Chart &chart, const std::vector<ast::VarDecl *> &variables
                 Diagnostics &diagnostics) {
   checkFlags(variables, diagnostics);
   bool good = checkNames(chart, variables, diagnostics);
+  good = checkActionNames(chart, diagnostics) && good;
   good = checkInitialStep(chart, diagnostics) && good;
   std::set<Ident> known;
   for (const ChartStep &step : chart.steps)

@@ -58,6 +58,8 @@ private:
   Expr *anyFlag(std::initializer_list<const char *> flags);
   Expr *anyStep();
 
+  /// Whether nothing of the POU or the chart has this name.
+  [[nodiscard]] bool isFree(const std::string &what) const;
   void collect();
   Name fires(size_t i) {
     return make_.name(hidden("fire" + std::to_string(i)), chart_.transitions[i].span);
@@ -103,8 +105,18 @@ Expr *ChartLowering::anyStep() {
   return make_.combined(BinaryOp::LogicalOr, list);
 }
 
-/// The control of an action is `_Action`, as in CODESYS, unless the POU has a variable of this name
-/// or extends a block that may have one.
+bool ChartLowering::isFree(const std::string &what) const {
+  const auto named = [&](const auto &one) { return equalIgnoringCase(one.name.text, what); };
+  return declared(what) == nullptr &&
+         std::ranges::none_of(target_.members,
+                              [&](const Name &one) { return equalIgnoringCase(one.text, what); }) &&
+         std::ranges::none_of(chart_.steps, [&](const ChartStep &step) {
+           return named(step) || std::ranges::any_of(step.actions, named);
+         });
+}
+
+/// The control of an action is `_Action`, as in CODESYS, unless the POU has something of this name
+/// or extends a block that may have it.
 void ChartLowering::collect() {
   for (const ChartStep &step : chart_.steps) {
     for (const ChartAction &action : step.actions) {
@@ -112,11 +124,9 @@ void ChartLowering::collect() {
                              [&](const Use &use) { return use.name.id == action.name.id; });
       if (at == uses_.end()) {
         const std::string text(action.name.text);
-        const bool free = !target_.extends && declared("_" + text) == nullptr &&
-                          std::none_of(chart_.steps.begin(), chart_.steps.end(), [&](auto &one) {
-                            return equalIgnoringCase(one.name.text, "_" + text);
-                          });
-        const Name control = make_.name(free ? "_" + text : hidden(text), action.name.span);
+        const bool free = !target_.extends && isFree("_" + text);
+        const Name control =
+            make_.name(free ? "_" + text : hidden("action_" + text), action.name.span);
         at = uses_.insert(at, {action.name, control, {}});
         make_.hide(declareOpen(control, "SFCActionType"));
       }

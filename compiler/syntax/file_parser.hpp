@@ -82,6 +82,7 @@ private:
   /// Whatever may stand outside of everything, once.
   void declaration();
   void giveMembers(OpenPou &open);
+  [[nodiscard]] std::vector<ast::Name> membersOf(const ast::PouDecl *node) const;
 
   // Program units and their members.
   /// The END_… of a keyword; 0: it has none.

@@ -50,10 +50,13 @@ ast::Expr *FileParser::chartExpression(const Token &target, Token sign, bool (*e
   size_t depth = 0;
   while (!endsUnit() && !isChart(now_.type) && (depth != 0 || !ends(now_.type)) &&
          now_.type != Tok::SEMICOLON) {
-    if (now_.type == Tok::LPAREN)
+    if (now_.type == Tok::LPAREN || now_.type == Tok::LBRACKET) {
       ++depth;
-    else if (now_.type == Tok::RPAREN)
+    } else if (now_.type == Tok::RPAREN || now_.type == Tok::RBRACKET) {
+      if (depth == 0)
+        break;
       --depth;
+    }
     take();
   }
   Token end = unit_.back();
@@ -298,6 +301,21 @@ void FileParser::chart(std::unique_ptr<Chart> &out) {
   skipChartPart(Tok::END_TRANSITION);
 }
 
+/// Of the methods, actions and properties that stand in the POU.
+std::vector<ast::Name> FileParser::membersOf(const ast::PouDecl *node) const {
+  std::vector<ast::Name> out;
+  for (const OpenPou &open : pous_) {
+    if (open.node != node)
+      continue;
+    for (const auto *list : {&open.methods, &open.actions})
+      for (const ast::PouDecl *one : *list)
+        out.push_back(one->name);
+    for (const ast::PropertyDecl *one : open.properties)
+      out.push_back(one->name);
+  }
+  return out;
+}
+
 /// The chart becomes the body.
 void FileParser::finishChart(const ast::PouDecl *node, Content &content) {
   const Chart &chart = *content.chart;
@@ -315,8 +333,8 @@ void FileParser::finishChart(const ast::PouDecl *node, Content &content) {
   }
   if (!chartFailed_ && checkChart(chart, content.variables, diagnostics_))
     lowerChart(chart,
-               {builder_.interner(), arena_, diagnostics_, content.variables, node->name.text,
-                !node->base.empty()},
+               {builder_.interner(), arena_, diagnostics_, content.variables, membersOf(node),
+                node->name.text, !node->base.empty()},
                content.statements);
 }
 
