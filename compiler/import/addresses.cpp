@@ -148,7 +148,7 @@ public:
             {origin, std::string(text), "the PLC configuration has no channel at this address"});
       return {};
     }
-    const std::string result = plainAddress(address->area, address->size, *bit, model_.addressing);
+    std::string result = plainAddress(address->area, address->size, *bit, model_.addressing);
     if (moved_.emplace(std::string(text), result).second)
       model_.addresses.push_back({std::string(text), result});
     return result;

@@ -260,7 +260,7 @@ private:
     }
   }
 
-  void add(ObjectKind kind, size_t begin, std::string name, std::string text) {
+  void add(ObjectKind kind, size_t begin, std::string name, const std::string &text) {
     model_.objects.push_back({kind, std::move(name), foldersOf(attributes_["PATH"]),
                               std::exchange(comment_, {}) + text, originOf(begin)});
   }

@@ -31,7 +31,7 @@ double horizontal(const Node &node) {
 }
 
 /// An expression that stands as a body: without `:=` before and `;` after it.
-std::string bare(std::string text) {
+std::string bare(const std::string &text) {
   std::string_view rest = trimmed(text);
   while (!rest.empty() && (rest.back() == ';' || rest.back() == '\n'))
     rest = trimmed(rest.substr(0, rest.size() - 1));
