@@ -73,7 +73,7 @@ public:
       : context_(context), sfc_(sfc), pou_(pou), object_(std::move(object)), members_(members) {}
 
   std::string text() {
-    const std::string result = read();
+    std::string result = read();
     if (!problem_)
       return result;
     context_.leftOut(problem_->node, object_, fmt::format("its chart (SFC): {}", problem_->text));
