@@ -96,7 +96,7 @@ std::string tomlOf(const std::vector<Parameter> &parameters, std::string_view in
                         each.key, each.value,
                         each.certainty == Certainty::Sure      ? ""
                         : each.certainty == Certainty::Guessed ? "  # CHECK: guessed by the import"
-                                                               : "  # TODO: not in the import");
+                                                               : "  # MISSING: not in the import");
   return text;
 }
 
