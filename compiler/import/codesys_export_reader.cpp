@@ -1,6 +1,7 @@
 #include "compiler/import/codesys_export_reader.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/libraries.hpp"
 #include "compiler/import/st_scan.hpp"
 #include "compiler/import/unit_text.hpp"
 #include "compiler/import/xml_document.hpp"
@@ -17,7 +18,6 @@ namespace stc::import {
 namespace v3 {
 namespace {
 
-constexpr size_t kSniffed = 65536;
 /// Objects that lie in each other; more is a circle.
 constexpr size_t kDeepest = 64;
 
@@ -308,13 +308,9 @@ private:
       std::string whole = textAt(item, "DefaultResolution");
       if (whole.empty())
         whole = textAt(item, "Name");
-      const size_t comma = std::min(whole.find(','), whole.size());
-      std::string version(
-          trimmed(std::string_view(whole).substr(std::min(comma + 1, whole.size()))));
-      version = version.substr(0, version.find(' '));
-      if (comma != 0)
-        model_.libraries.push_back(
-            {whole.substr(0, comma), std::move(version), {file_, document_.lineOf(item)}, {}});
+      LibraryReference library = libraryNamed(whole, {file_, document_.lineOf(item)});
+      if (!library.name.empty())
+        model_.libraries.push_back(std::move(library));
     }
   }
 
@@ -350,7 +346,6 @@ private:
 } // namespace v3
 
 bool isCodesysExport(std::string_view text) {
-  text = text.substr(0, v3::kSniffed);
   return text.find("<ExportFile") != std::string_view::npos &&
          text.find("<StructuredView") != std::string_view::npos;
 }

@@ -288,7 +288,7 @@ private:
                         const std::vector<std::string> &body) {
     KeptText kept{keptName(fmt::format("{}_{}", object, begin + 1)), joined(body)};
     std::string_view kind = trimmed(body.front());
-    if (!networks::beginsDrawnBody(kind)) {
+    if (!networks::isTranslatedBody(kind)) {
       leaveOut(begin, object, fmt::format("its body is drawn ({}); its text is kept", kind));
       model_.kept.push_back(std::move(kept));
       return fmt::format("{{error 'body not imported: {}'}}\n", kind);

@@ -1,5 +1,6 @@
 #include "compiler/import/libraries.hpp"
 
+#include "compiler/import/exp_lines.hpp"
 #include "compiler/import/st_words.hpp"
 #include "compiler/source/identifier.hpp"
 
@@ -50,6 +51,15 @@ void lookUpByName(const LibraryReference &library, Model &model, const OwnLibrar
 }
 
 } // namespace
+
+LibraryReference libraryNamed(std::string_view text, Origin origin) {
+  const size_t comma = std::min(text.find(','), text.size());
+  const std::string_view rest = text.substr(std::min(comma + 1, text.size()));
+  return {std::string(trimmed(text.substr(0, comma))),
+          std::string(trimmed(rest.substr(0, rest.find_first_of(",(")))),
+          std::move(origin),
+          {}};
+}
 
 void lookUpLibraries(Model &model, const OwnLibraries &own) {
   if (model.libraries.empty())

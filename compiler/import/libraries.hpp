@@ -16,6 +16,9 @@ struct OwnLibraries {
   std::function<bool(std::string_view lowerName)> isLibrary; ///< by its name
 };
 
+/// `Standard, 3.5.18.0 (System)` or `Tc2_MC2,*,Beckhoff`: name, version and vendor.
+[[nodiscard]] LibraryReference libraryNamed(std::string_view text, Origin origin);
+
 /// Says of each library what becomes of it: what the project uses of it and Stride has not is a
 /// loss.
 void lookUpLibraries(Model &model, const OwnLibraries &own);

@@ -22,42 +22,10 @@ bool isIdentification(std::string_view element) {
   return contains({"ObjectId", "ProjectInformation", "ProjectStructure"}, element);
 }
 
-/// Elements of xhtml that stand on lines of their own.
-bool isBlock(std::string_view name) { return contains({"p", "div", "pre", "li"}, name); }
-
-void appendText(const Node &node, std::string &text) {
-  for (const Node &part : node.children()) {
-    if (part.type() == pugi::node_pcdata || part.type() == pugi::node_cdata) {
-      text += part.value();
-      continue;
-    }
-    const std::string_view name = localName(part);
-    if (name == "br")
-      text += '\n';
-    appendText(part, text);
-    if (isBlock(name) && !text.empty() && text.back() != '\n')
-      text += '\n';
-  }
-}
-
 /// Text in apostrophes as a pragma holds it.
 std::string quotedText(std::string_view text) { return fmt::format("'{}'", quotedForSt(text)); }
 
 } // namespace
-
-std::string_view localName(const Node &node) {
-  if (node.type() != pugi::node_element)
-    return {};
-  const std::string_view name = node.name();
-  return name.substr(name.find(':') + 1);
-}
-
-Node child(const Node &node, std::string_view name) {
-  for (const Node &each : node.children())
-    if (localName(each) == name)
-      return each;
-  return {};
-}
 
 std::vector<Node> children(const Node &node, std::string_view name) {
   std::vector<Node> found;
@@ -74,12 +42,6 @@ Node firstElement(const Node &node) {
   return {};
 }
 
-std::string textOf(const Node &node) {
-  std::string text;
-  appendText(node, text);
-  return text;
-}
-
 std::string linesOf(const Node &node) {
   std::string text = textOf(node);
   const size_t last = text.find_last_not_of(" \t\r\n");
@@ -92,11 +54,6 @@ std::string linesOf(const Node &node) {
 }
 
 std::string attribute(const Node &node, const char *name) { return node.attribute(name).value(); }
-
-bool isTrue(const Node &node, const char *name) {
-  const std::string_view value = node.attribute(name).value();
-  return value == "true" || value == "1" || value == "True" || value == "TRUE";
-}
 
 bool isName(std::string_view text) {
   const auto isLetter = [](char c) {

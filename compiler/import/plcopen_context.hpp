@@ -4,6 +4,7 @@
 // Internal to compiler/import.
 
 #include "compiler/import/model.hpp"
+#include "compiler/import/networks/xml_nodes.hpp"
 #include "compiler/import/xml_document.hpp"
 
 #include <initializer_list>
@@ -17,20 +18,13 @@ namespace stc::import::plcopen {
 
 using Node = pugi::xml_node;
 
-/// The element's name without a namespace's prefix; empty for what is no element.
-[[nodiscard]] std::string_view localName(const Node &node);
-/// The first child element of this local name; null: there is none.
-[[nodiscard]] Node child(const Node &node, std::string_view name);
 /// All child elements, or those of a local name.
 [[nodiscard]] std::vector<Node> children(const Node &node, std::string_view name = {});
 /// The first child element, whatever its name.
 [[nodiscard]] Node firstElement(const Node &node);
-/// All text in the element. Lines that xhtml sets apart (p, br, div) are lines.
-[[nodiscard]] std::string textOf(const Node &node);
 /// textOf() without blank lines at the beginning and blanks at the end; lines end with \n.
 [[nodiscard]] std::string linesOf(const Node &node);
 [[nodiscard]] std::string attribute(const Node &node, const char *name);
-[[nodiscard]] bool isTrue(const Node &node, const char *name);
 /// Letters, digits and `_`, not beginning with a digit.
 [[nodiscard]] bool isName(std::string_view text);
 /// The words are equal but for the case of ASCII letters.

@@ -1,6 +1,7 @@
 #include "compiler/import/plcopen_reader.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/libraries.hpp"
 #include "compiler/import/plcopen_context.hpp"
 
 #include <fmt/format.h>
@@ -34,18 +35,6 @@ void readFolders(Context &context, const Node &node, std::vector<std::string> &f
   }
 }
 
-/// `Standard, 3.5.18.0 (System)`
-LibraryReference libraryOf(Context &context, const Node &node) {
-  const std::string name = attribute(node, "Name");
-  const size_t comma = std::min(name.find(','), name.size());
-  std::string_view version = std::string_view(name).substr(std::min(comma + 1, name.size()));
-  version = trimmed(version.substr(0, version.find('(')));
-  return {std::string(trimmed(std::string_view(name).substr(0, comma))),
-          std::string(version),
-          context.originOf(node),
-          {}};
-}
-
 void readTypes(Context &context, const Node &types) {
   context.leaveOutUnknown(types, {"dataTypes", "pous"});
   context.leaveOutUnknown(child(types, "dataTypes"), {"dataType"});
@@ -70,7 +59,8 @@ void readExtra(Context &context, const Node &element, const std::string &listNam
     readInterface(context, element);
   else if (kind == "Libraries")
     for (const Node &each : children(element, "Library"))
-      context.model().libraries.push_back(libraryOf(context, each));
+      context.model().libraries.push_back(
+          libraryNamed(attribute(each, "Name"), context.originOf(each)));
   else if (kind == "resource")
     readExtras(context, element, listName);
 }
@@ -96,8 +86,7 @@ void readExtras(Context &context, const Node &node, const std::string &listName)
 } // namespace plcopen
 
 bool isPlcOpen(std::string_view text) {
-  constexpr size_t kSniffed = 65536;
-  return text.substr(0, kSniffed).find(plcopen::kNamespace) != std::string_view::npos;
+  return text.find(plcopen::kNamespace) != std::string_view::npos;
 }
 
 void readPlcOpen(const std::string &file, std::string_view text, Model &model) {
@@ -108,9 +97,9 @@ void readPlcOpen(const std::string &file, std::string_view text, Model &model) {
   }
   plcopen::Context context(file, *document, model);
   const plcopen::Node project = plcopen::firstElement(document->tree);
-  if (plcopen::localName(project) != "project") {
+  if (localName(project) != "project") {
     model.unreadable.push_back(
-        {context.originOf(project), fmt::format("element {}", plcopen::localName(project)),
+        {context.originOf(project), fmt::format("element {}", localName(project)),
          "a PLCopen XML file begins with the element project; export the project as PLCopen XML"});
     return;
   }
@@ -118,11 +107,11 @@ void readPlcOpen(const std::string &file, std::string_view text, Model &model) {
   plcopen::readFolders(context, plcopen::extra(project, "ProjectStructure"), folders);
   context.leaveOutUnknown(project,
                           {"fileHeader", "contentHeader", "types", "instances", "documentation"});
-  context.leaveOutUnknown(plcopen::child(project, "contentHeader"),
+  context.leaveOutUnknown(child(project, "contentHeader"),
                           {"coordinateInfo", "Comment", "addDataInfo"});
-  context.leaveOutUnknownExtras(plcopen::child(project, "contentHeader"), {});
-  plcopen::readTypes(context, plcopen::child(project, "types"));
-  plcopen::readInstances(context, plcopen::child(project, "instances"));
+  context.leaveOutUnknownExtras(child(project, "contentHeader"), {});
+  plcopen::readTypes(context, child(project, "types"));
+  plcopen::readInstances(context, child(project, "instances"));
   plcopen::readExtras(context, project, "Global_Variables");
   context.finish();
 }

@@ -10,15 +10,9 @@
 
 namespace stc::import::plcopen {
 
-namespace {
+using stride::common::upperCase;
 
-std::string upperCase(std::string_view text) {
-  std::string result(text);
-  for (char &c : result)
-    if (c >= 'a' && c <= 'z')
-      c = static_cast<char>(c - 'a' + 'A');
-  return result;
-}
+namespace {
 
 std::string arrayText(Context &context, const Node &node, const std::string &owner) {
   std::string ranges;

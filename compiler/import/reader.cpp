@@ -20,7 +20,6 @@ namespace {
 constexpr size_t kSniffed = 65536;
 
 bool isExp(std::string_view text) {
-  text = text.substr(0, kSniffed);
   constexpr std::array<std::string_view, 5> kSigns = {"(* @NESTEDCOMMENTS", "(* @PATH",
                                                       "(* @OBJECTFLAGS", "(* @GLOBAL_VARIABLE_LIST",
                                                       "(* @END_DECLARATION"};
@@ -109,6 +108,7 @@ FormatChoice formatOf(std::string_view file, std::string_view text) {
   for (const Refusal &each : kRefusals)
     if (lists(each.extensions, extension) && text.starts_with(each.magic))
       return {nullptr, std::string(each.why), true};
+  text = text.substr(0, kSniffed);
   const Format *byName = nullptr;
   size_t namesakes = 0;
   for (const Format &each : kFormats)

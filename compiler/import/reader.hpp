@@ -14,7 +14,8 @@ namespace stc::import {
 struct Format {
   std::string_view name;       ///< as documents call it
   std::string_view extensions; ///< in lower case with the dot, apart by a blank: `.exp .txt`
-  /// Whether the content is of this format; for files whose ending several formats have.
+  /// Whether the beginning of the content is of this format; for files whose ending several
+  /// formats have.
   bool (*matches)(std::string_view text);
   /// Adds what the file holds to the model; `text` is UTF-8. What is not imported becomes a remark
   /// in Model::leftOut. A file that cannot be read as a whole adds to Model::unreadable.

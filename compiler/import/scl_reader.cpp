@@ -18,8 +18,6 @@ namespace stc::import {
 namespace scl_blocks {
 namespace {
 
-constexpr size_t kSniffed = 65536;
-
 struct BlockWord {
   std::string_view begin;
   std::string_view end;
@@ -371,7 +369,6 @@ private:
 } // namespace scl_blocks
 
 bool isScl(std::string_view text) {
-  text = text.substr(0, scl_blocks::kSniffed);
   constexpr std::array<std::string_view, 4> kSigns = {"S7_Optimized_Access", "ORGANIZATION_BLOCK",
                                                       "DATA_BLOCK", "S7_SetPoint"};
   if (text.find("<?xml") != std::string_view::npos)
@@ -381,8 +378,6 @@ bool isScl(std::string_view text) {
 }
 
 void readScl(const std::string &file, std::string_view text, Model &model) {
-  if (text.starts_with("\xEF\xBB\xBF"))
-    text.remove_prefix(3);
   scl_blocks::Blocks(file, text, model).read();
 }
 

@@ -1,5 +1,7 @@
 #include "compiler/import/st_scan.hpp"
 
+#include "runtime/common/text.hpp"
+
 #include <algorithm>
 
 namespace stc::import {
@@ -10,8 +12,6 @@ bool isWordSign(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
          static_cast<unsigned char>(c) >= 0x80;
 }
-
-char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 size_t afterNested(std::string_view text, size_t at, std::string_view open,
                    std::string_view close) {
@@ -92,9 +92,7 @@ std::string_view wordAt(std::string_view text, size_t at) {
 }
 
 std::string firstKeyword(std::string_view text) {
-  std::string word(wordAt(text, codeFrom(text)));
-  std::ranges::transform(word, word.begin(), capital);
-  return word;
+  return stride::common::upperCase(wordAt(text, codeFrom(text)));
 }
 
 std::string quotedForSt(std::string_view text) {

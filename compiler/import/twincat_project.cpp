@@ -1,6 +1,7 @@
 #include "compiler/import/twincat_project.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/libraries.hpp"
 #include "compiler/import/project_files.hpp"
 #include "compiler/import/st_scan.hpp"
 #include "runtime/common/text.hpp"
@@ -200,19 +201,6 @@ private:
   Model &model_;
 };
 
-/// `Tc2_Standard, * (Beckhoff Automation GmbH)`, `Tc2_MC2,*,Beckhoff Automation GmbH`.
-std::string nameOfLibrary(std::string_view text) {
-  return std::string(trimmed(text.substr(0, text.find(','))));
-}
-
-std::string versionOfLibrary(std::string_view text) {
-  const size_t comma = text.find(',');
-  if (comma == std::string_view::npos)
-    return {};
-  const std::string_view rest = text.substr(comma + 1);
-  return std::string(trimmed(rest.substr(0, rest.find_first_of(",("))));
-}
-
 /// Stride's stand-ins for libraries of TwinCAT are seen in projects that name them.
 void addLibrary(LibraryReference library, Model &model) {
   for (const std::string_view each : {"Tc2_MC2", "Tc2_System"})
@@ -232,11 +220,13 @@ void readProjectItem(const std::string &file, const XmlDocument &document,
   if (element == "Compile" && excluded)
     model.leftOut.push_back({origin, include, "the project excludes it from the build"});
   if (element == "PlaceholderReference")
-    addLibrary(
-        {include, versionOfLibrary(item.child("DefaultResolution").text().as_string()), origin, {}},
-        model);
+    addLibrary({include,
+                libraryNamed(item.child("DefaultResolution").text().as_string(), origin).version,
+                origin,
+                {}},
+               model);
   else if (element == "LibraryReference")
-    addLibrary({nameOfLibrary(include), versionOfLibrary(include), origin, {}}, model);
+    addLibrary(libraryNamed(include, origin), model);
 }
 
 } // namespace

@@ -15,8 +15,6 @@ namespace stc::import {
 namespace twincat {
 namespace {
 
-constexpr size_t kSniffed = 65536;
-
 struct Language {
   std::string_view element;
   std::string_view name;
@@ -183,7 +181,6 @@ private:
 } // namespace twincat
 
 bool isTwinCat(std::string_view text) {
-  text = text.substr(0, twincat::kSniffed);
   const auto has = [&](std::string_view sign) { return text.find(sign) != std::string_view::npos; };
   return has("<TcPlcObject") || has("<TcSmProject") || has("<TcSmItem") ||
          (has("developer/msbuild") && has(".Tc"));

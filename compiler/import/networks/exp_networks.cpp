@@ -368,7 +368,7 @@ private:
 
 } // namespace
 
-bool beginsDrawnBody(std::string_view line) {
+bool isTranslatedBody(std::string_view line) {
   return std::ranges::find(kBodies, trim(line)) != kBodies.end();
 }
 
@@ -385,7 +385,7 @@ Body readExpNetworks(const std::vector<NumberedLine> &lines, const Scope &scope,
 Translation translatedExpBody(const std::vector<NumberedLine> &lines, Scope &scope) {
   Translation result;
   const bool chart = !lines.empty() && trim(lines.front().text) == "_CFC_BODY";
-  if (lines.empty() || !beginsDrawnBody(lines.front().text)) {
+  if (lines.empty() || !isTranslatedBody(lines.front().text)) {
     result.problems.push_back(
         {lines.empty() ? 0 : lines.front().line,
          "no published export shows a body of this kind; change it to ST or IL "

@@ -19,7 +19,7 @@ struct NumberedLine {
 };
 
 /// Whether a line begins a drawn body (`_LD_BODY`, `_FBD_BODY`, `_CFC_BODY`).
-[[nodiscard]] bool beginsDrawnBody(std::string_view line);
+[[nodiscard]] bool isTranslatedBody(std::string_view line);
 
 /// Translates a body whose first line begins a drawn body. The files have no names of pins: `scope`
 /// must know the blocks' declarations. Words that no published export shows (jumps among them) are

@@ -1,4 +1,5 @@
 #include "compiler/import/networks/expression.hpp"
+#include "runtime/common/text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +8,8 @@
 #include <fmt/format.h>
 
 namespace stc::import::networks {
+
+using stride::common::upperCase;
 
 namespace {
 

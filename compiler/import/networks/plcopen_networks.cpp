@@ -1,7 +1,9 @@
 #include "compiler/import/networks/plcopen_networks.hpp"
+#include "runtime/common/text.hpp"
 
 #include "compiler/import/networks/exp_pins.hpp"
 #include "compiler/import/networks/text.hpp"
+#include "compiler/import/networks/xml_nodes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,38 +15,14 @@
 
 namespace stc::import::networks {
 
+using stride::common::upperCase;
+
 namespace {
 
 using pugi::xml_node;
 
-std::string_view localName(const xml_node &node) {
-  const std::string_view name = node.name();
-  const size_t colon = name.rfind(':');
-  return colon == std::string_view::npos ? name : name.substr(colon + 1);
-}
-
-xml_node child(const xml_node &node, std::string_view name) {
-  for (const xml_node each : node.children())
-    if (localName(each) == name)
-      return each;
-  return {};
-}
-
-/// All text below a node.
-std::string contentOf(const xml_node &node) {
-  std::string text;
-  for (const xml_node each : node.children())
-    text += each.type() == pugi::node_element ? contentOf(each) : std::string(each.value());
-  return text;
-}
-
 std::string expressionIn(const xml_node &node, std::string_view name) {
-  return std::string(trim(contentOf(child(node, name))));
-}
-
-bool isTrue(const xml_node &node, const char *attribute) {
-  const std::string_view value = node.attribute(attribute).value();
-  return value == "true" || value == "1";
+  return std::string(trim(import::textOf(child(node, name))));
 }
 
 Edge edgeIn(const xml_node &node) {
@@ -61,7 +39,7 @@ Storage storageIn(const xml_node &node) {
 std::optional<std::string> addedText(const xml_node &node, std::string_view name) {
   for (const xml_node data : child(node, "addData").children())
     if (const xml_node found = child(data, name))
-      return contentOf(found);
+      return import::textOf(found);
   return std::nullopt;
 }
 
@@ -140,13 +118,13 @@ private:
     if (name == "label")
       head_.label = node.attribute("label").value();
     else
-      head_.comment += (head_.comment.empty() ? "" : "\n") + contentOf(child(node, "content"));
+      head_.comment += (head_.comment.empty() ? "" : "\n") + import::textOf(child(node, "content"));
     return true;
   }
 
   void readVendorElement(const xml_node &node) {
     const std::string type = addedText(node, "ElementType").value_or("");
-    const std::string text(trim(contentOf(child(node, "alternativeText"))));
+    const std::string text(trim(import::textOf(child(node, "alternativeText"))));
     if (type == "networktitle") {
       head_.title = text;
       head_.line = lineOf_(node);
@@ -203,7 +181,7 @@ private:
       node.text = xml.attribute("label").value();
       break;
     case NodeKind::Comment:
-      node.text = contentOf(child(xml, "content"));
+      node.text = import::textOf(child(xml, "content"));
       break;
     default:
       node.text = expressionIn(xml, "expression");

@@ -12,6 +12,8 @@
 
 namespace stc::import::networks {
 
+using stride::common::upperCase;
+
 namespace {
 
 using stride::common::lowerCase;

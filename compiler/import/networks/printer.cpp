@@ -9,6 +9,8 @@
 
 namespace stc::import::networks {
 
+using stride::common::upperCase;
+
 namespace {
 
 constexpr size_t kLeavesRepeated = 12; // of an expression that stands several times in a statement

@@ -10,6 +10,8 @@
 
 namespace stc::import::networks {
 
+using stride::common::upperCase;
+
 using stride::common::lowerCase;
 
 namespace {
@@ -206,8 +208,6 @@ void Scope::enter(std::string_view text) {
   inFunction_ = false;
   DeclarationReader(text, *this, true).read();
 }
-
-void Scope::reserve(std::string_view name) { localTaken_.insert(lowerCase(name)); }
 
 const Interface *Scope::interfaceOf(std::string_view type) const {
   std::string key = lowerCase(trim(type));

@@ -36,8 +36,6 @@ public:
   /// The declaration (with or without body) of the POU whose body is translated. What was made for
   /// another one before is forgotten.
   void enter(std::string_view text);
-  /// A further name that must not be used for something new.
-  void reserve(std::string_view name);
 
   [[nodiscard]] const Interface *interfaceOf(std::string_view type) const;
   /// Type of a variable, a member or an element (`a.b[1].c`) as text; empty: not known.

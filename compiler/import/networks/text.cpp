@@ -8,6 +8,8 @@
 
 namespace stc::import::networks {
 
+using stride::common::upperCase;
+
 namespace {
 
 bool isLetter(char c) {
@@ -98,14 +100,6 @@ constexpr std::array<std::pair<std::string_view, Precedence>, 17> kOperators = {
 }};
 
 } // namespace
-
-std::string upperCase(std::string_view text) {
-  std::string result(text);
-  for (char &c : result)
-    if (c >= 'a' && c <= 'z')
-      c = static_cast<char>(c - 'a' + 'A');
-  return result;
-}
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && isBlank(text.front()))

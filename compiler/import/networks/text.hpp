@@ -45,7 +45,6 @@ struct Word {
 [[nodiscard]] bool isVariable(std::string_view text);
 [[nodiscard]] bool isIdentifier(std::string_view text);
 
-[[nodiscard]] std::string upperCase(std::string_view text);
 [[nodiscard]] std::string_view trim(std::string_view text);
 
 } // namespace stc::import::networks

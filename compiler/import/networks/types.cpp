@@ -1,4 +1,5 @@
 #include "compiler/import/networks/types.hpp"
+#include "runtime/common/text.hpp"
 
 #include "compiler/import/networks/expression.hpp"
 #include "compiler/import/networks/text.hpp"
@@ -9,6 +10,8 @@
 #include <utility>
 
 namespace stc::import::networks {
+
+using stride::common::upperCase;
 
 namespace {
 
