@@ -190,5 +190,55 @@ TEST(Jets, HoldTheDerivativesOfClosedForms) {
   }
 }
 
+TEST(Jets, TurnTowardsPointsAsByTheirAngles) {
+  Random random;
+  for (int i = 0; i < 3000; ++i) {
+    // Also so small and so large that squares would not be numbers any more.
+    const double size = std::pow(10, random.between(-290, 290));
+    Jet<3> x(size * random.between(-2, 2));
+    Jet<3> y(size * random.between(-2, 2));
+    for (int order = 1; order <= 3; ++order) {
+      x.c[order] = random.between(-1, 1);
+      y.c[order] = random.between(-1, 1);
+    }
+    const double exact = std::atan2(y.c[0], x.c[0]);
+    const Jet<3> angle = [&] {
+      Jet<3> any(exact + 2 * kPi * (i % 3));
+      for (int order = 1; order <= 3; ++order)
+        any.c[order] = random.between(-1, 1);
+      return any;
+    }();
+    const TurnOf<Jet<3>> turn = turnTowards(y, x, angle);
+    EXPECT_NEAR(turn.c.c[0], std::cos(exact), 3e-15);
+    EXPECT_NEAR(turn.s.c[0], std::sin(exact), 3e-15);
+    EXPECT_NEAR(turn.c.c[1], -std::sin(exact) * angle.c[1], 3e-15);
+    EXPECT_NEAR(turn.s.c[2],
+                std::cos(exact) * angle.c[2] - std::sin(exact) * angle.c[1] * angle.c[1] / 2,
+                1e-14);
+  }
+  const TurnOf<double> none = turnTowards(0.0, 0.0, 0.25);
+  EXPECT_EQ(none.c, turnBy(0.25).c);
+  EXPECT_EQ(none.s, turnBy(0.25).s);
+}
+
+TYPED_TEST(EveryKinematics, SeesTurnsFromItsFlange) {
+  Random random;
+  for (int i = 0; i < 1000; ++i) {
+    const TypeParam model = makeModel<TypeParam>(random);
+    double joint[kMostJoints];
+    drawJoints<TypeParam>(random, joint);
+    Frame<double> flange;
+    if (model.forward(joint, flange) != Outcome::Done)
+      continue;
+    const Matrix<double> turn = aboutZ(random.between(-3, 3)) * aboutX(random.between(-3, 3)) *
+                                aboutZ(random.between(-3, 3));
+    const Matrix<double> seen = seenFromFlange(model, joint, turn);
+    EXPECT_LT((flange.turn.transpose() * turn - seen).norm(), 1e-14);
+    if constexpr (kHasHeading<TypeParam, double>) {
+      EXPECT_LT((flange.turn - aboutZ(model.heading(joint))).norm(), 1e-14);
+    }
+  }
+}
+
 } // namespace
 } // namespace stride::kinematics

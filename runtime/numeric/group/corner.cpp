@@ -23,14 +23,78 @@ End over(const Series &series, double speed) noexcept {
   return {series.c[0], series.c[1] * speed, 2.0 * series.c[2] * speed * speed};
 }
 
-Series valueOf(const Quintic &polynomial, const Series &u) noexcept {
+/// The parameter along a corner, and what all series of polynomials in it have in common.
+struct Parameter {
+  Series u;
+  double square, product, cube; ///< Of its derivatives' shares: see valueOf.
+};
+
+Parameter parameter(const Series &u) noexcept {
+  return {u, u.c[1] * u.c[1], 2.0 * u.c[1] * u.c[2], u.c[1] * u.c[1] * u.c[1]};
+}
+
+/// A polynomial at the parameter: its own series there (Horner's scheme, again and again), and in
+/// that the parameter's series.
+Series valueOf(const Quintic &polynomial, const Parameter &parameter) noexcept {
   const double(&c)[6] = polynomial.c;
   if (c[5] == 0.0 && c[4] == 0.0 && c[3] == 0.0 && c[2] == 0.0 && c[1] == 0.0)
     return Series(c[0] + 0.0); // as of axes that there are not
-  Series sum = c[5] * u + Series(c[4]);
-  for (int k = 3; k >= 0; --k)
-    sum = sum * u + Series(c[k]);
-  return sum;
+  const Series &u = parameter.u;
+  const double at = u.c[0];
+  double p[6] = {c[0], c[1], c[2], c[3], c[4], c[5]};
+  for (int order = 0; order < 4; ++order)
+    for (int k = 4; k >= order; --k)
+      p[k] += at * p[k + 1];
+  Series series;
+  series.c[0] = 0.0 + p[0];
+  series.c[1] = 0.0 + p[1] * u.c[1];
+  series.c[2] = 0.0 + p[1] * u.c[2] + p[2] * parameter.square;
+  series.c[3] = 0.0 + p[1] * u.c[3] + p[2] * parameter.product + p[3] * parameter.cube;
+  return series;
+}
+
+/// An orientation, given by rows, turned on twice; the products of both turns are four series.
+Matrix<Series> turnedTwice(const Turning &first, const Turning &second,
+                           const double (&rows)[9]) noexcept {
+  const Matrix<double> start = matrixOf(rows);
+  const Matrix<double> once = crossed(first.about, start);
+  const Matrix<double> twice = crossed(first.about, once);
+  const Matrix<double> then[3] = {crossed(second.about, start), crossed(second.about, once),
+                                  crossed(second.about, twice)};
+  return sumOf({first.sine, first.rest, second.sine, second.rest, first.sine * second.sine,
+                first.sine * second.rest, first.rest * second.sine, first.rest * second.rest},
+               {once, twice, then[0], crossed(second.about, then[0]), then[1],
+                crossed(second.about, then[1]), then[2], crossed(second.about, then[2])},
+               start);
+}
+
+/// 1 or -1 where two axes lie in one line, pointing the same way or not; else 0.
+double sameAxis(const Vector3 &a, const Vector3 &b) noexcept {
+  if (a.x == b.x && a.y == b.y && a.z == b.z)
+    return 1.0;
+  return a.x == -b.x && a.y == -b.y && a.z == -b.z ? -1.0 : 0.0;
+}
+
+/// How the tool is turned. One that does not turn on a leg need not be looked at further.
+Matrix<Series> turnAt(const Corner &corner, const Parameter &u) noexcept {
+  const bool leaves = corner.before.rate != 0.0;
+  const bool enters = corner.after.rate != 0.0;
+  if (!leaves && !enters)
+    return seriesOf(corner.turn);
+  const auto angleOf = [&u](const Spin &spin, const Quintic &way) {
+    return valueOf(way, u) * spin.rate;
+  };
+  const Vector3 &first = corner.before.about;
+  const Vector3 &second = corner.after.about;
+  if (!enters)
+    return turnedOn(first, angleOf(corner.before, corner.leaves), corner.turn);
+  const Series entered = angleOf(corner.after, corner.enters);
+  if (!leaves)
+    return turnedOn(second, entered, corner.turn);
+  const Series left = angleOf(corner.before, corner.leaves);
+  const double same = sameAxis(first, second);
+  return same != 0.0 ? turnedOn(first, left + entered * same, corner.turn)
+                     : turnedTwice(turning(first, left), turning(second, entered), corner.turn);
 }
 
 Vector3 directionOf(const Vector<Series> &place) noexcept {
@@ -104,7 +168,8 @@ void placeAt(const Corner &corner, const Series &way, PathPlace &place) noexcept
   const Series x = way * (1.0 / corner.length);
   const double change = corner.last - corner.first;
   const Series cube = x * x * x;
-  const Series u = corner.length * (corner.first * x + change * (cube - 0.5 * cube * x));
+  const Parameter u =
+      parameter(corner.length * (corner.first * x + change * (cube - 0.5 * cube * x)));
   place.byTool = corner.byTool;
   for (int32_t k = corner.byTool ? kArmAxes : 0; k < kAxes; ++k)
     place.axes[k] = valueOf(corner.axes[k], u);
@@ -112,16 +177,7 @@ void placeAt(const Corner &corner, const Series &way, PathPlace &place) noexcept
     return;
   for (int i = 0; i < 3; ++i)
     place.tool.place(i) = valueOf(corner.place[i], u);
-  // A tool that does not turn on a leg need not be looked at further.
-  const bool leaves = corner.before.rate != 0.0;
-  const bool enters = corner.after.rate != 0.0;
-  const Series left = leaves ? valueOf(corner.leaves, u) * corner.before.rate : Series(0.0);
-  place.tool.turn = turnedOn(corner.before.about, left, corner.turn);
-  if (enters)
-    place.tool.turn =
-        kinematics::times(kinematics::about(vectorOf(corner.after.about),
-                                            valueOf(corner.enters, u) * corner.after.rate),
-                          place.tool.turn);
+  place.tool.turn = turnAt(corner, u);
 }
 
 } // namespace stride::group

@@ -76,13 +76,61 @@ inline Frame<double> valueOf(const Frame<Series> &frame) noexcept {
   return value;
 }
 
+/// A turn about a fixed axis by an angle [rad] that changes along the path, after Rodrigues: with
+/// `cross` for the product with the axis, an orientation R becomes
+/// R + sine * cross(R) + rest * cross(cross(R)). Both products do not change along the path.
+struct Turning {
+  Vector3 about;
+  Series sine;
+  Series rest; ///< 1 - cosine
+};
+
+inline Turning turning(const Vector3 &about, const Series &angle) noexcept {
+  const kinematics::TurnOf<Series> turn = kinematics::turnBy(angle);
+  return {about, turn.s, Series(1.0) - turn.c};
+}
+
+/// The cross products of an axis and the columns of a matrix.
+inline Matrix<double> crossed(const Vector3 &axis, const Matrix<double> &columns) noexcept {
+  Matrix<double> product;
+  for (int i = 0; i < 3; ++i) {
+    product(0, i) = axis.y * columns(2, i) - axis.z * columns(1, i);
+    product(1, i) = axis.z * columns(0, i) - axis.x * columns(2, i);
+    product(2, i) = axis.x * columns(1, i) - axis.y * columns(0, i);
+  }
+  return product;
+}
+
+/// An orientation, given by rows, as a series; no -0.
+inline Matrix<Series> seriesOf(const double (&rows)[9]) noexcept {
+  return (matrixOf(rows).array() + 0.0).matrix().cast<Series>();
+}
+
+/// The sum of matrices that do not change along the path times factors that do, and of one more.
+template <int kTerms>
+Matrix<Series> sumOf(const Series (&factors)[kTerms], const Matrix<double> (&shares)[kTerms],
+                     const Matrix<double> &constant) noexcept {
+  Matrix<Series> result;
+  for (int i = 0; i < 9; ++i) {
+    Series sum(constant.data()[i] + 0.0);
+    for (int term = 0; term < kTerms; ++term)
+      for (int k = 0; k < 4; ++k)
+        sum.c[k] += factors[term].c[k] * shares[term].data()[i];
+    result.data()[i] = sum;
+  }
+  return result;
+}
+
 /// An orientation, given by rows, turned on about an axis of the machine by an angle [rad]. As a
 /// rule the tool does not turn: then it is the orientation itself.
 inline Matrix<Series> turnedOn(const Vector3 &about, const Series &angle,
                                const double (&rows)[9]) noexcept {
   if (isZero(angle))
-    return (matrixOf(rows).array() + 0.0).matrix().cast<Series>();
-  return kinematics::times(kinematics::about(vectorOf(about), angle), matrixOf(rows));
+    return seriesOf(rows);
+  const Turning by = turning(about, angle);
+  const Matrix<double> start = matrixOf(rows);
+  const Matrix<double> once = crossed(about, start);
+  return sumOf({by.sine, by.rest}, {once, crossed(about, once)}, start);
 }
 
 /// A place of the path as series over the way. Either the tool or the axes of the kinematics lead;

@@ -1,5 +1,6 @@
 #include "runtime/numeric/kinematics/any_kinematics.hpp"
 
+#include "runtime/numeric/kinematics/hands.hpp"
 #include "runtime/numeric/kinematics/motion_of_joints.hpp"
 #include "runtime/numeric/quarter_turns.hpp"
 
@@ -65,9 +66,11 @@ public:
     if (!hasHand_)
       return arm.inverse(kinematics_.armMeasure, end, posture, reference, joints);
     const HandFunctions<Scalar> &hand = functionsOf<Scalar>(hand_);
-    Frame<Scalar> flange{hand.nearest(end.turn), end.place};
     Scalar *handJoints = joints + arm_.joints;
     const double *handReference = reference + arm_.joints;
+    if (arm.heading != nullptr && hand_.aboutZ)
+      return inverseAboutZ(end, posture, reference, joints);
+    Frame<Scalar> flange{hand.nearest(end.turn), end.place};
     if (arm_.keepsTurn) {
       hand.turnTo(kinematics_.handMeasure, flange.turn, posture, handReference, handJoints);
       flange.place -= hand.forward(kinematics_.handMeasure, handJoints).place;
@@ -83,6 +86,20 @@ public:
   }
 
 private:
+  /// Both parts turn the tool about z: what the arm does not, the hand does.
+  Outcome inverseAboutZ(const Frame<Scalar> &end, Posture posture, const double *reference,
+                        Scalar *joints) const {
+    const ArmFunctions<Scalar> &arm = functionsOf<Scalar>(arm_);
+    const Scalar heading = turnAboutZ(end.turn);
+    const Frame<Scalar> flange{
+        end.turn, flangePlace(end.place, heading, hand_.offset(kinematics_.handMeasure))};
+    const Outcome outcome = arm.inverse(kinematics_.armMeasure, flange, posture, reference, joints);
+    if (outcome == Outcome::Done)
+      joints[arm_.joints] =
+          nearTo(reference[arm_.joints], heading - arm.heading(kinematics_.armMeasure, joints));
+    return outcome;
+  }
+
   Outcome armForward(const Scalar *joints, Frame<Scalar> &flange) const {
     return functionsOf<Scalar>(arm_).forward(kinematics_.armMeasure, joints, flange);
   }

@@ -88,15 +88,23 @@ struct ArmRrr {
       pose.place(row) += pose.turn(row, 2) * d4;
     return a2 > 0 && forearm() > 0 ? Outcome::Done : Outcome::WrongMeasures;
   }
-  template <class Scalar> Matrix<Scalar> flangeTurn(const Scalar *joints) const {
+  /// The inverse steps one after the other, without the products with zeros. Upper arm and forearm
+  /// turn about parallel axes, so that their sum counts.
+  template <class Scalar>
+  Matrix<Scalar> seenFromFlange(const Scalar *joints, const Matrix<Scalar> &turn) const {
     const TurnOf<Scalar> base = turnBy(joints[0]);
-    const TurnOf<Scalar> upper = turnBy(joints[1] + Scalar(kPi / 2));
-    const Scalar zero(0.0);
-    Matrix<Scalar> turn; // that of the upper arm: the first two steps without zeros
-    turn << base.c * upper.c, zero - base.c * upper.s, base.s, base.s * upper.c,
-        zero - base.s * upper.s, zero - base.c, upper.s, upper.c, zero;
-    addTurn(turn, turnBy(joints[2]), 1);
-    return turn;
+    const TurnOf<Scalar> tilt = turnBy(joints[1] + joints[2]);
+    Matrix<Scalar> seen;
+    for (int column = 0; column < 3; ++column) {
+      const Scalar &x = turn(0, column);
+      const Scalar &y = turn(1, column);
+      const Scalar &up = turn(2, column);
+      const Scalar forth = x * base.c + y * base.s;
+      seen(0, column) = withoutMinus0(up * tilt.c - forth * tilt.s);
+      seen(1, column) = withoutMinus0(x * base.s - y * base.c);
+      seen(2, column) = withoutMinus0(forth * tilt.c + up * tilt.s);
+    }
+    return seen;
   }
 
   template <class Scalar>
@@ -245,9 +253,10 @@ Outcome OffsetWristArm::inverse(const Frame<Scalar> &pose, Posture posture, cons
   if (isNegative(inFront))
     return Outcome::Unreachable;
   const Scalar way = posture.backwards ? -rootOf(inFront) : rootOf(inFront);
-  joints[0] =
-      nearTo(reference[0], angleOf(wrist(1) * way + wrist(0) * d4, wrist(0) * way - wrist(1) * d4));
-  const TurnOf<Scalar> base = turnBy(joints[0]);
+  const Scalar ahead = wrist(0) * way - wrist(1) * d4;
+  const Scalar aside = wrist(1) * way + wrist(0) * d4;
+  joints[0] = nearTo(reference[0], angleOf(aside, ahead));
+  const TurnOf<Scalar> base = turnTowards(aside, ahead, joints[0]);
   // Axes of the tool seen from the arm's plane: in front, above, and at right angles (the axis of
   // joints 1 to 3).
   const auto seen = [&](const Vector<Scalar> &axis, Scalar(&out)[3]) {
@@ -265,20 +274,24 @@ Outcome OffsetWristArm::inverse(const Frame<Scalar> &pose, Posture posture, cons
   const Scalar s = posture.hand ? across : -across;
   joints[4] = nearTo(reference[4], angleOf(s, z[2]));
   Scalar sum; // of joints 1, 2 and 3
+  TurnOf<Scalar> tilt;
   if (valueOf(across) < 1e-12) {
     // The last axis is parallel to joints 1 to 3: only its sum with theirs counts.
     joints[5] = Scalar(reference[5]);
     const TurnOf<Scalar> last = turnBy(joints[5]);
     const double side = valueOf(z[2]) < 0 ? -1.0 : 1.0;
     sum = angleOf(side * (x[1] * last.c - y[1] * last.s), side * (x[0] * last.c - y[0] * last.s));
+    tilt = turnBy(sum);
   } else {
     const double side = posture.hand ? 1.0 : -1.0;
     joints[5] = nearTo(reference[5], angleOf(-side * y[2], side * x[2]));
-    sum = angleOf(-side * z[1], -side * z[0]);
+    const Scalar upwards = -side * z[1];
+    const Scalar forwards = -side * z[0];
+    sum = angleOf(upwards, forwards);
+    tilt = turnTowards(upwards, forwards, sum);
   }
   // Back from the wrist along d5, which stands at right angles to joint 3's x axis in the arm's
   // plane.
-  const TurnOf<Scalar> tilt = turnBy(sum);
   const Scalar forth = way - d5 * tilt.s;
   const Scalar up = wrist(2) - Scalar(d1) + d5 * tilt.c;
   // Negative links are positive ones that look the other way.

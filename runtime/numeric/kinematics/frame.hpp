@@ -51,17 +51,6 @@ Matrix<Scalar> transposedTimes(const Matrix<Scalar> &a, const Matrix<Scalar> &b)
           a(0, row) * b(0, column) + (a(1, row) * b(1, column) + a(2, row) * b(2, column));
   return product;
 }
-/// a^T * b where `a` turns about z.
-template <class Scalar>
-Matrix<Scalar> uprightTimes(const Matrix<Scalar> &a, const Matrix<Scalar> &b) {
-  Matrix<Scalar> product;
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 2; ++row)
-      product(row, column) = withoutMinus0(a(0, row) * b(0, column) + a(1, row) * b(1, column));
-    product(2, column) = Scalar(0.0) + b(2, column);
-  }
-  return product;
-}
 template <class Scalar, class Other>
 Vector<Scalar> times(const Matrix<Scalar> &a, const Vector<Other> &b) {
   Vector<Scalar> product;

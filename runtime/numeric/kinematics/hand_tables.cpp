@@ -23,6 +23,7 @@ template <class Hand> constexpr HandTable makeHandTable() {
   table.measures = kMeasuresOf<Hand>;
   table.joints = Hand::kJoints;
   table.turning = Hand::kTurning;
+  table.aboutZ = requires { Hand::kTurnsAboutZ; };
   table.together = [](Task arm) { return Hand::together(arm); };
   table.offset = [](const double *measures) { return modelOf<Hand>(measures).offset(); };
   table.postureOf = [](const double *measures, const double *joints) {

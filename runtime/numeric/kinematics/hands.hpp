@@ -32,6 +32,7 @@ struct RigidTool {
 struct TurningAxis : RigidTool {
   static constexpr int kJoints = 1;
   static constexpr unsigned kTurning = 1;
+  static constexpr bool kTurnsAboutZ = true; ///< and about nothing else
 
   Posture postureOf(const double *) const noexcept { return {}; }
   static constexpr Task together(Task flange) noexcept {
@@ -81,8 +82,10 @@ struct Wrist2 {
     const Scalar &x = turn(0, 2);
     const Scalar &y = turn(1, 2);
     const bool upright = valueOf(x) == 0 && valueOf(y) == 0;
-    joints[0] = upright ? Scalar(reference[0]) : nearTo(reference[0], angleOf(side * y, side * x));
-    const TurnOf<Scalar> yaw = turnBy(joints[0]);
+    const Scalar ahead = side * x;
+    const Scalar aside = side * y;
+    joints[0] = upright ? Scalar(reference[0]) : nearTo(reference[0], angleOf(aside, ahead));
+    const TurnOf<Scalar> yaw = turnTowards(aside, ahead, joints[0]);
     joints[1] = nearTo(reference[1], angleOf(x * yaw.c + y * yaw.s, turn(2, 2)));
   }
 };
@@ -110,14 +113,25 @@ struct Wrist3 : RigidTool {
     const Scalar &x = turn(0, 2);
     const Scalar &y = turn(1, 2);
     const bool inLine = valueOf(x) == 0 && valueOf(y) == 0;
-    joints[0] = inLine ? Scalar(reference[0]) : nearTo(reference[0], angleOf(side * y, side * x));
-    const TurnOf<Scalar> first = turnBy(joints[0]);
+    const Scalar ahead = side * x;
+    const Scalar aside = side * y;
+    joints[0] = inLine ? Scalar(reference[0]) : nearTo(reference[0], angleOf(aside, ahead));
+    const TurnOf<Scalar> first = turnTowards(aside, ahead, joints[0]);
     joints[1] = nearTo(reference[1], angleOf(-(x * first.c + y * first.s), turn(2, 2)));
     // What the first joint leaves of the tool's own axes at right angles to the middle one.
     joints[2] = nearTo(reference[2], angleOf(turn(1, 0) * first.c - turn(0, 0) * first.s,
                                              turn(1, 1) * first.c - turn(0, 1) * first.s));
   }
 };
+
+/// Where a flange is that turns the tool about z: before the tool's offset, given in its own axes.
+template <class Scalar>
+Vector<Scalar> flangePlace(const Vector<Scalar> &place, const Scalar &heading,
+                           const Vector<double> &offset) {
+  if (offset(0) == 0 && offset(1) == 0 && offset(2) == 0)
+    return place;
+  return place - times(aboutZ(heading), offset);
+}
 
 /// One that places and one that turns. Source: SoftMotion 3, Kin_Coupled.
 template <class Arm, class Hand> struct Coupled {
@@ -148,10 +162,18 @@ template <class Arm, class Hand> struct Coupled {
   template <class Scalar>
   Outcome inverse(const Frame<Scalar> &pose, Posture posture, const double *reference,
                   Scalar *joints) const {
-    Frame<Scalar> flange{hand.nearest(pose.turn), pose.place};
-    const Matrix<Scalar> turn = flange.turn;
     Scalar *handJoints = joints + Arm::kJoints;
     const double *handReference = reference + Arm::kJoints;
+    if constexpr (kHasHeading<Arm, Scalar> && requires { Hand::kTurnsAboutZ; }) {
+      const Scalar heading = turnAboutZ(pose.turn);
+      const Frame<Scalar> flange{pose.turn, flangePlace(pose.place, heading, hand.offset())};
+      const Outcome outcome = arm.inverse(flange, posture, reference, joints);
+      if (outcome == Outcome::Done)
+        handJoints[0] = nearTo(handReference[0], heading - arm.heading(joints));
+      return outcome;
+    }
+    Frame<Scalar> flange{hand.nearest(pose.turn), pose.place};
+    const Matrix<Scalar> turn = flange.turn;
     if constexpr (Arm::kFlangeKeepsTurn) {
       hand.turnTo(turn, posture, handReference, handJoints);
       flange.place -= hand.forward(handJoints).place;
@@ -161,9 +183,7 @@ template <class Arm, class Hand> struct Coupled {
       const Outcome outcome = arm.inverse(flange, posture, reference, joints);
       if (outcome != Outcome::Done)
         return outcome;
-      (void)arm.forward(joints, flange);
-      const Matrix<Scalar> rest = flange.turn.transpose() * turn;
-      hand.turnTo(rest, posture, handReference, handJoints);
+      hand.turnTo(seenFromFlange(arm, joints, turn), posture, handReference, handJoints);
       return Outcome::Done;
     }
   }
@@ -212,8 +232,10 @@ struct FiveAxisTable {
     const Scalar &x = pose.turn(0, 2);
     const Scalar &y = pose.turn(1, 2);
     const bool upright = valueOf(x) == 0 && valueOf(y) == 0;
-    joints[4] = upright ? Scalar(reference[4]) : nearTo(reference[4], angleOf(side * x, side * y));
-    const TurnOf<Scalar> c = turnBy(joints[4]);
+    const Scalar ahead = side * y;
+    const Scalar aside = side * x;
+    joints[4] = upright ? Scalar(reference[4]) : nearTo(reference[4], angleOf(aside, ahead));
+    const TurnOf<Scalar> c = turnTowards(aside, ahead, joints[4]);
     joints[3] = nearTo(reference[3], angleOf(x * c.s + y * c.c, pose.turn(2, 2)));
     Vector<Scalar> place = pose.place;
     place(2) += Scalar(tableHeight);

@@ -112,8 +112,9 @@ inline TurnOf<double> turnBy(double angle) noexcept {
   const SineCosine turn = sineCosine(angle);
   return {turn.c, turn.s};
 }
-template <int kOrder> TurnOf<Jet<kOrder>> turnBy(const Jet<kOrder> &angle) noexcept {
-  const SineCosine first = sineCosine(angle.c[0]);
+/// Where cosine and sine of the angle itself are known.
+template <int kOrder>
+TurnOf<Jet<kOrder>> turnBy(const Jet<kOrder> &angle, const TurnOf<double> &first) noexcept {
   TurnOf<Jet<kOrder>> turn;
   double *const c = turn.c.c;
   double *const s = turn.s.c;
@@ -133,6 +134,9 @@ template <int kOrder> TurnOf<Jet<kOrder>> turnBy(const Jet<kOrder> &angle) noexc
     s[3] = (0.0 + a[1] * c[2] + 2 * a[2] * c[1] + 3 * a[3] * c[0]) / 3;
   }
   return turn;
+}
+template <int kOrder> TurnOf<Jet<kOrder>> turnBy(const Jet<kOrder> &angle) noexcept {
+  return turnBy(angle, turnBy(angle.c[0]));
 }
 
 /// Angle of the point (x, y), from -pi to pi. [rad]
@@ -159,6 +163,23 @@ template <int kOrder> Jet<kOrder> angleOf(const Jet<kOrder> &y, const Jet<kOrder
     }
   }
   return angle;
+}
+
+/// turnBy(angle) where `angle` is angleOf(y, x), whole turns aside: by a root instead of series,
+/// unless squares would lose digits.
+inline TurnOf<double> turnTowards(double y, double x, double angle) noexcept {
+  constexpr double kLeast = 1e-200;
+  constexpr double kMost = 1e200;
+  const double square = x * x + y * y;
+  if (!(square > kLeast && square < kMost))
+    return turnBy(angle);
+  const double distance = ::stride::sqrt(square);
+  return {x / distance, y / distance};
+}
+template <int kOrder>
+TurnOf<Jet<kOrder>> turnTowards(const Jet<kOrder> &y, const Jet<kOrder> &x,
+                                const Jet<kOrder> &angle) noexcept {
+  return turnBy(angle, turnTowards(y.c[0], x.c[0], angle.c[0]));
 }
 
 } // namespace stride::kinematics

@@ -77,15 +77,24 @@ template <class Scalar> Scalar turnAboutZ(const Matrix<Scalar> &turn) noexcept {
   return angleOf(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
 }
 
-/// How an arm's flange is turned: by the model's own `flangeTurn(joints)` if it has one.
+/// Whether a model says by its own `heading(joints)` how far its flange has turned about z [rad],
+/// which is all that it turns.
 template <class Model, class Scalar>
-Matrix<Scalar> flangeTurnOf(const Model &model, const Scalar *joints) {
-  if constexpr (requires { model.flangeTurn(joints); }) {
-    return model.flangeTurn(joints);
+inline constexpr bool kHasHeading = requires(const Model &model, const Scalar *joints) {
+  model.heading(joints);
+};
+
+/// An orientation as the arm's flange sees it: by the model's own `seenFromFlange(joints, turn)` if
+/// it has one.
+template <class Model, class Scalar>
+Matrix<Scalar> seenFromFlange(const Model &model, const Scalar *joints,
+                              const Matrix<Scalar> &turn) {
+  if constexpr (requires { model.seenFromFlange(joints, turn); }) {
+    return model.seenFromFlange(joints, turn);
   } else {
     Frame<Scalar> flange;
     (void)model.forward(joints, flange);
-    return flange.turn;
+    return transposedTimes(flange.turn, turn);
   }
 }
 

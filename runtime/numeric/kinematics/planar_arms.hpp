@@ -31,7 +31,7 @@ Outcome bendArm(double first, double second, const Scalar &x, const Scalar &y, b
     angle[0] = Scalar(reference);
     return Outcome::Done;
   }
-  const TurnOf<Scalar> bend = turnBy(angle[1]);
+  const TurnOf<Scalar> bend = turnTowards(s, c, angle[1]);
   const Scalar along = Scalar(first) + second * bend.c;
   const Scalar aside = second * bend.s;
   angle[0] = angleOf(y * along - x * aside, x * along + y * aside);
@@ -54,6 +54,7 @@ struct Polar {
     pose.place = pose.turn.col(0) * joints[1];
     return Outcome::Done;
   }
+  template <class Scalar> Scalar heading(const Scalar *joints) const { return joints[0]; }
   template <class Scalar>
   Outcome inverse(const Frame<Scalar> &pose, Posture, const double *reference,
                   Scalar *joints) const {
@@ -87,11 +88,8 @@ struct Scara2 {
     pose.place = first.col(0) * Scalar(firstArm) + pose.turn.col(0) * Scalar(secondArm);
     return firstArm > 0 && secondArm > 0 ? Outcome::Done : Outcome::WrongMeasures;
   }
-  template <class Scalar> Matrix<Scalar> flangeTurn(const Scalar *joints) const {
-    const TurnOf<Scalar> first = turnBy(joints[0]);
-    const TurnOf<Scalar> second = turnBy(joints[1]);
-    return turnAboutZBy(TurnOf<Scalar>{first.c * second.c - first.s * second.s,
-                                       first.s * second.c + first.c * second.s});
+  template <class Scalar> Scalar heading(const Scalar *joints) const {
+    return joints[0] + joints[1];
   }
   template <class Scalar>
   Outcome inverse(const Frame<Scalar> &pose, Posture posture, const double *reference,
@@ -125,9 +123,10 @@ template <class Flat> struct Lifted {
     pose.place(2) += joints[Flat::kJoints];
     return outcome;
   }
-  template <class Scalar> Matrix<Scalar> flangeTurn(const Scalar *joints) const {
-    return flangeTurnOf(flat, joints);
+  template <class Scalar> Scalar heading(const Scalar *joints) const requires requires {
+    flat.heading(joints);
   }
+  { return flat.heading(joints); }
   template <class Scalar>
   Outcome inverse(const Frame<Scalar> &pose, Posture posture, const double *reference,
                   Scalar *joints) const {

@@ -48,6 +48,8 @@ template <class Scalar> struct ArmFunctions {
                      const double *reference, Scalar *joints);
   /// What of an orientation is left for a hand.
   Matrix<Scalar> (*rest)(const double *measures, const Scalar *joints, const Matrix<Scalar> &turn);
+  /// How far the flange has turned about z; nullptr: it is not all that it turns. [rad]
+  Scalar (*heading)(const double *measures, const Scalar *joints);
 };
 
 /// The functions of one model; `measures` are the members of its structure in their order.
@@ -76,6 +78,7 @@ struct HandTable {
   int measures;
   int joints;
   unsigned turning;
+  bool aboutZ; ///< it turns the tool about the flange's z axis only
   Task (*together)(Task arm);
   Vector<double> (*offset)(const double *measures);
   bool (*postureOf)(const double *measures, const double *joints); ///< Posture::hand
@@ -102,11 +105,15 @@ inline constexpr int kMeasuresOf = __is_empty(Model)
                                        ? 0
                                        : static_cast<int>(sizeof(Model) / sizeof(double));
 
-/// See ArmFunctions::rest.
-template <class Model, bool kUpright, class Scalar>
-Matrix<Scalar> restAfter(const double *measures, const Scalar *joints, const Matrix<Scalar> &turn) {
-  const Matrix<Scalar> flange = flangeTurnOf(modelOf<Model>(measures), joints);
-  return kUpright ? uprightTimes(flange, turn) : transposedTimes(flange, turn);
+/// The functions of a model for what comes after it.
+template <class Model, class Scalar> constexpr void setRest(ArmFunctions<Scalar> &functions) {
+  functions.rest = [](const double *measures, const Scalar *joints, const Matrix<Scalar> &turn) {
+    return seenFromFlange(modelOf<Model>(measures), joints, turn);
+  };
+  if constexpr (kHasHeading<Model, Scalar>)
+    functions.heading = [](const double *measures, const Scalar *joints) {
+      return modelOf<Model>(measures).heading(joints);
+    };
 }
 
 /// The functions of a model of arms. `kUpright`: see ArmTable.
@@ -130,8 +137,8 @@ template <class Model, bool kUpright> constexpr ArmTable makeArmTable() {
                              const double *reference, double *joints) {
     return modelOf<Model>(measures).inverse(pose, posture, reference, joints);
   };
-  table.numbers.rest = restAfter<Model, kUpright, double>;
-  table.jets.rest = restAfter<Model, kUpright, Jet<3>>;
+  setRest<Model>(table.numbers);
+  setRest<Model>(table.jets);
   table.jets.forward = [](const double *measures, const Jet<3> *joints, Frame<Jet<3>> &pose) {
     return modelOf<Model>(measures).forward(joints, pose);
   };

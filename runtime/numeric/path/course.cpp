@@ -34,18 +34,6 @@ void mergeInto(Strip &strip, const Strip &next) noexcept {
 
 } // namespace
 
-double squareIn(const Strip &strip, double override) noexcept {
-  const double feed = strip.feed * override;
-  return smaller(feed * feed, strip.ceiling);
-}
-
-double squareAtEnd(const Strip &strip, double override) noexcept {
-  if (strip.stop)
-    return 0.0;
-  const double feed = strip.endFeed * override;
-  return smaller(smaller(feed * feed, strip.endCeiling), squareIn(strip, override));
-}
-
 bool append(Course &course, const Strip &strip, double time) noexcept {
   if (course.next - course.first > 1) {
     Strip &last = stripAt(course, course.next - 1);
@@ -71,6 +59,8 @@ void forgetBefore(Course &course, double way) noexcept {
 int64_t stripOf(const Course &course, double way) noexcept {
   int64_t low = course.first;
   int64_t high = course.next - 1;
+  if (low < high && stripAt(course, low).end > way) // as a rule: where the motion is
+    return low;
   while (low < high) {
     const int64_t middle = low + (high - low) / 2;
     if (stripAt(course, middle).end <= way)

@@ -94,8 +94,16 @@ inline double jerkIn(const Strip &strip, double most, const Braking &braking = {
 
 /// The greatest square of the velocity in a strip, and at its end. `override` is 1 for what the
 /// program wants. [u^2/s^2]
-double squareIn(const Strip &strip, double override) noexcept;
-double squareAtEnd(const Strip &strip, double override) noexcept;
+inline double squareIn(const Strip &strip, double override) noexcept {
+  const double feed = strip.feed * override;
+  return exact::smaller(feed * feed, strip.ceiling);
+}
+inline double squareAtEnd(const Strip &strip, double override) noexcept {
+  if (strip.stop)
+    return 0.0;
+  const double feed = strip.endFeed * override;
+  return exact::smaller(exact::smaller(feed * feed, strip.endCeiling), squareIn(strip, override));
+}
 
 /// Puts a strip after the last one; those that would be gone over within `time` [s] become one with
 /// the worst limits of both. `strip.end` must be greater than endOf(course). False: it is full.

@@ -255,7 +255,8 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
     beginSeeking(motion, true);
     return true;
   }
-  ask(motion, false);
+  if (motion.changing) // else it is the same
+    ask(motion, false);
   if (motion.planned.stop)
     return false;
   const double end = endAt(motion.law, lastPiece(motion));

@@ -5,7 +5,7 @@
 namespace stride::path {
 namespace {
 
-using Pass = bool (*)(Plan &, const Course &) noexcept;
+using Pass = bool (*)(Plan &, const Course &, int32_t &budget) noexcept;
 
 // clang-format off
 constexpr Pass kPasses[] = {
@@ -96,9 +96,8 @@ void begin(Plan &plan, const Course &course, const PlanTask &task) noexcept {
 
 int32_t work(Plan &plan, const Course &course, int32_t budget) noexcept {
   while (plan.state == PlanState::Working && budget > 0) {
-    --budget;
-    if (!kPasses[plan.phase](plan, course) && plan.state != PlanState::Failed)
-      continue;
+    if (!kPasses[plan.phase](plan, course, budget))
+      break;
     if (plan.state == PlanState::Failed) {
       tryAgain(plan, course);
       continue;

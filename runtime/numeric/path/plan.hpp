@@ -98,7 +98,8 @@ struct Plan {
   double knot;       ///< Way up to where there are cells. [u]
   double step;       ///< Length of the last one. [u]
   double curveSlope; ///< Pass 3: of the curve that is being drawn. [u/s^2]
-  double otherSlope; ///< Pass 3: of its other half, which comes next; pass 4: of a line. [u/s^2]
+  double otherSlope; ///< Pass 3: of its other half, which comes next; pass 4: of a line, while the
+                     ///< hull is stacked of its last one. [u/s^2]
   double height;     ///< Pass 4: between the line and the curve. [u^2/s^2]
   double worst;      ///< By how much a limit is exceeded, at most; 1: by nothing.
   int64_t strip;     ///< Present one.

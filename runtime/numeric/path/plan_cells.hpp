@@ -8,45 +8,52 @@ namespace stride::path {
 
 inline bool startsAtRest(const Plan &plan) noexcept { return !(plan.task.velocity > 0.0); }
 
-/// Between the control points before and after knot `i`. [u]
-inline double spanAt(const Plan &plan, int32_t i) noexcept {
-  return plan.cell[i + 1].middle - plan.cell[i].middle;
+// By the cell before a knot; the next one comes after it. Indices would be added up anew for each
+// of their members.
+
+/// Between the control points before and after a knot. [u]
+inline double spanAt(const Cell *cell) noexcept { return cell[1].middle - cell[0].middle; }
+
+/// The acceleration there. [u/s^2]
+inline double slopeAt(const Cell *cell) noexcept {
+  return (cell[1].square - cell[0].square) / (2.0 * spanAt(cell));
 }
 
-/// The acceleration at knot `i`. [u/s^2]
-inline double slopeAt(const Plan &plan, int32_t i) noexcept {
-  return (plan.cell[i + 1].square - plan.cell[i].square) / (2.0 * spanAt(plan, i));
+/// b there. [u^2/s^2]
+inline double squareAtKnot(const Cell *cell) noexcept {
+  const double part = (cell->end - cell->middle) / spanAt(cell);
+  return cell->square + (cell[1].square - cell->square) * part;
+}
+
+// The same at knot `i`.
+inline double spanAt(const Plan &plan, int32_t i) noexcept { return spanAt(plan.cell + i); }
+inline double slopeAt(const Plan &plan, int32_t i) noexcept { return slopeAt(plan.cell + i); }
+inline double squareAtKnot(const Plan &plan, int32_t i) noexcept {
+  return squareAtKnot(plan.cell + i);
 }
 
 /// The acceleration at the start of cell `i`. [u/s^2]
 inline double slopeBefore(const Plan &plan, int32_t i) noexcept {
-  return i > 0 ? slopeAt(plan, i - 1) : plan.task.acceleration;
-}
-
-/// b at knot `i`. [u^2/s^2]
-inline double squareAtKnot(const Plan &plan, int32_t i) noexcept {
-  const Cell &before = plan.cell[i];
-  const double part = (before.end - before.middle) / spanAt(plan, i);
-  return before.square + (plan.cell[i + 1].square - before.square) * part;
+  return i > 0 ? slopeAt(plan.cell + i - 1) : plan.task.acceleration;
 }
 
 inline double knotBefore(const Plan &plan, int32_t i) noexcept {
-  return i > 0 ? plan.cell[i - 1].end : plan.task.way;
+  return i > 0 ? (plan.cell + i - 1)->end : plan.task.way;
 }
 inline double lengthOf(const Plan &plan, int32_t i) noexcept {
-  return plan.cell[i].end - knotBefore(plan, i);
+  return (plan.cell + i)->end - knotBefore(plan, i);
 }
 
 /// The greatest velocity within a cell that is not next to rest, or a little more. [u/s]
 inline double greatestIn(const Plan &plan, int32_t i) noexcept {
-  const double before = i > 0 ? squareAtKnot(plan, i - 1) : plan.task.velocity * plan.task.velocity;
-  return exact::sqrt(
-      exact::larger(plan.cell[i].square, exact::larger(before, squareAtKnot(plan, i))));
+  const Cell *const cell = plan.cell + i;
+  const double before = i > 0 ? squareAtKnot(cell - 1) : plan.task.velocity * plan.task.velocity;
+  return exact::sqrt(exact::larger(cell->square, exact::larger(before, squareAtKnot(cell))));
 }
 
 /// How far the acceleration can change within a cell that is not next to rest. [u/s^2]
 inline double changeIn(const Plan &plan, int32_t i) noexcept {
-  return plan.cell[i].jerk * lengthOf(plan, i) / greatestIn(plan, i);
+  return (plan.cell + i)->jerk * lengthOf(plan, i) / greatestIn(plan, i);
 }
 
 /// The acceleration at the end of the way x out of rest, with constant jerk. [u/s^2]
@@ -83,23 +90,35 @@ double steadyUntil(const Plan &plan, const Course &course, int64_t strip) noexce
 /// Whether the run is one strip from rest to rest without a curve; plans it then, in closed form.
 bool planAlone(Plan &plan, const Course &course) noexcept;
 
-// A pass: one step of it; true: it is done.
-bool findRamp(Plan &plan, const Course &course) noexcept;
-bool followRamp(Plan &plan, const Course &course) noexcept;
-bool chooseRun(Plan &plan, const Course &course) noexcept;
-bool reachBackwards(Plan &plan, const Course &course) noexcept;
-bool addCell(Plan &plan, const Course &course) noexcept;
-bool lowerBetweenCeilings(Plan &plan, const Course &course) noexcept;
-bool accelerate(Plan &plan, const Course &course) noexcept;
-bool brake(Plan &plan, const Course &course) noexcept;
-bool limitForwards(Plan &plan, const Course &course) noexcept;
-bool limitBackwards(Plan &plan, const Course &course) noexcept;
-bool findValleys(Plan &plan, const Course &course) noexcept;
-bool raiseSlowly(Plan &plan, const Course &course) noexcept;
-bool stackHull(Plan &plan, const Course &course) noexcept;
-bool lowerToHull(Plan &plan, const Course &course) noexcept;
-bool check(Plan &plan, const Course &course) noexcept;
-bool slowDown(Plan &plan, const Course &course) noexcept;
+/// Steps of a pass, for at most `budget` of them, which become less. A step says whether the pass
+/// is done. True: it is, or the plan has failed.
+template <bool (*kStep)(Plan &, const Course &) noexcept>
+bool repeat(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  while (budget > 0) {
+    --budget;
+    if (kStep(plan, course) || plan.state == PlanState::Failed)
+      return true;
+  }
+  return false;
+}
+
+// The passes.
+bool findRamp(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool followRamp(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool chooseRun(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool reachBackwards(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool addCell(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool lowerBetweenCeilings(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool accelerate(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool brake(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool limitForwards(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool limitBackwards(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool findValleys(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool raiseSlowly(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool stackHull(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool lowerToHull(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool check(Plan &plan, const Course &course, int32_t &budget) noexcept;
+bool slowDown(Plan &plan, const Course &course, int32_t &budget) noexcept;
 
 } // namespace stride::path
 

@@ -28,9 +28,11 @@ double squareFromRest(double jerk, double x) noexcept {
 double restLength(double jerk, double time) noexcept { return jerk * time * time * time / 6.0; }
 
 /// `square`, if b at the way x next to rest is not less. That takes a cube root, so it is only
-/// looked at where x is not clearly long enough.
+/// looked at where x is not clearly long enough: with constant jerk the velocity is there after a
+/// way whose square is 2/9 of its cube over the jerk.
 double besideRest(double jerk, double square, double velocity, double x) noexcept {
-  if (x > 1.01 * restLength(jerk, exact::sqrt(2.0 * velocity / jerk)))
+  constexpr double kClearly = 1.01 * 1.01 * 2.0 / 9.0;
+  if (x > 0.0 && x * x * jerk > kClearly * (velocity * velocity * velocity))
     return square;
   return smaller(square, squareFromRest(jerk, x));
 }
@@ -255,7 +257,9 @@ double accelerationFromRest(double jerk, double x) noexcept {
   return jerk * piece.duration;
 }
 
-bool addCell(Plan &plan, const Course &course) noexcept {
+namespace {
+
+bool addCellOnce(Plan &plan, const Course &course) noexcept {
   if (plan.count == 0) {
     putFirstCell(plan, course);
     return false;
@@ -275,6 +279,12 @@ bool addCell(Plan &plan, const Course &course) noexcept {
   }
   putCell(plan, course, plan.end, plan.end - 0.25 * plan.endRest);
   return true;
+}
+
+} // namespace
+
+bool addCell(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<addCellOnce>(plan, course, budget);
 }
 
 } // namespace stride::path

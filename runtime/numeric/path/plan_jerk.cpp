@@ -147,19 +147,25 @@ bool drawCurve(Plan &plan) noexcept {
 // ---- the hull
 
 double slopeOfLine(const Plan &plan, int32_t from, int32_t to) noexcept {
-  const Cell &a = plan.cell[from];
-  const Cell &b = plan.cell[to];
+  const Cell &a = *(plan.cell + from);
+  const Cell &b = *(plan.cell + to);
   return (b.bound + b.lift - (a.bound + a.lift)) / (b.middle - a.middle);
 }
 
 /// Pushes a control point and takes away those that are not on the hull any more.
 void pushOntoHull(Plan &plan, int32_t i) noexcept {
-  while (plan.stacked >= 2) {
-    const int32_t last = plan.stack[plan.stacked - 1];
-    if (slopeOfLine(plan, plan.stack[plan.stacked - 2], last) < slopeOfLine(plan, last, i))
+  const int16_t *const stack = plan.stack;
+  double slope = 0.0;
+  while (plan.stacked > 0) {
+    const int16_t *const last = stack + plan.stacked - 1;
+    slope = slopeOfLine(plan, *last, i);
+    if (plan.stacked == 1 || plan.otherSlope < slope)
       break;
     --plan.stacked;
+    if (plan.stacked >= 2)
+      plan.otherSlope = slopeOfLine(plan, last[-2], last[-1]);
   }
+  plan.otherSlope = slope;
   plan.stack[plan.stacked++] = static_cast<int16_t>(i);
 }
 
@@ -189,7 +195,12 @@ void lower(const Plan &plan, Cell &cell, double square) noexcept {
 
 // ---- the check
 
-void note(Plan &plan, double part) noexcept {
+/// What a motion has of a limit. As a rule that is less, which needs no division.
+void note(Plan &plan, double value, double limit) noexcept {
+  constexpr double kLess = 0.999;
+  if (value < kLess * limit)
+    return;
+  const double part = value / limit;
   if (part > plan.worst)
     plan.worst = part;
   else if (!(part <= plan.worst)) // NaN
@@ -197,16 +208,20 @@ void note(Plan &plan, double part) noexcept {
 }
 
 void checkKnot(Plan &plan, int32_t i) noexcept {
-  const Cell &a = plan.cell[i];
-  const Cell &b = plan.cell[i + 1];
-  const double slope = slopeAt(plan, i);
-  const double square = squareAtKnot(plan, i);
-  note(plan, slope > 0.0 ? slope / smaller(a.acceleration, b.acceleration)
-                         : -slope / smaller(a.deceleration, b.deceleration));
-  note(plan, exact::fabs(slope) * larger(a.along, b.along) +
-                 larger(a.across, b.across) * larger(a.square, b.square));
-  note(plan, square / smaller(a.ceiling, b.ceiling));
-  note(plan, square / smaller(a.curve, b.curve));
+  const Cell *const cell = plan.cell + i;
+  const Cell &a = cell[0];
+  const Cell &b = cell[1];
+  const double slope = slopeAt(cell);
+  const double square = squareAtKnot(cell);
+  note(plan, exact::fabs(slope),
+       slope > 0.0 ? smaller(a.acceleration, b.acceleration)
+                   : smaller(a.deceleration, b.deceleration));
+  note(plan,
+       exact::fabs(slope) * larger(a.along, b.along) +
+           larger(a.across, b.across) * larger(a.square, b.square),
+       1.0);
+  note(plan, square, smaller(a.ceiling, b.ceiling));
+  note(plan, square, smaller(a.curve, b.curve));
 }
 
 /// A run that begins with an acceleration which its strip allows may be cut there into a cell that
@@ -217,29 +232,27 @@ void checkStart(Plan &plan, const Course &course) noexcept {
   const double a = plan.task.acceleration;
   const double own = a > 0.0 ? strip.acceleration : decelerationIn(strip, plan.task.braking);
   if (!startsAtRest(plan) && exact::fabs(a) <= own * kRounding)
-    note(plan, a > 0.0 ? a / cell.acceleration : -a / cell.deceleration);
+    note(plan, exact::fabs(a), a > 0.0 ? cell.acceleration : cell.deceleration);
 }
 
 void checkCell(Plan &plan, int32_t i) noexcept {
   const Cell &cell = plan.cell[i];
-  note(plan, cell.square / cell.ceiling);
-  note(plan, cell.square / cell.curve);
+  note(plan, cell.square, cell.ceiling);
+  note(plan, cell.square, cell.curve);
   if (i == 0 && !startsAtRest(plan))
-    note(plan, plan.task.velocity * plan.task.velocity / cell.curve);
+    note(plan, plan.task.velocity * plan.task.velocity, cell.curve);
   if (isRestCell(plan, i)) {
     const double slope = exact::fabs(i == 0 ? slopeAt(plan, 0) : slopeAt(plan, i - 1));
     const double x = lengthOf(plan, i);
-    note(plan, slope / accelerationFromRest(cell.jerk, x));
+    note(plan, slope, accelerationFromRest(cell.jerk, x));
     return;
   }
-  note(plan, exact::fabs(slopeAt(plan, i) - slopeBefore(plan, i)) / changeIn(plan, i));
+  note(plan, exact::fabs(slopeAt(plan, i) - slopeBefore(plan, i)), changeIn(plan, i));
   if (!(cell.square > 0.0))
     plan.worst = exact::kInfinity;
 }
 
-} // namespace
-
-bool findValleys(Plan &plan, const Course & /*course*/) noexcept {
+bool findValleysOnce(Plan &plan, const Course & /*course*/) noexcept {
   if (plan.index == 0) {
     plan.stacked = 0;
     plan.heading = 0;
@@ -252,7 +265,7 @@ bool findValleys(Plan &plan, const Course & /*course*/) noexcept {
   return false;
 }
 
-bool raiseSlowly(Plan &plan, const Course & /*course*/) noexcept {
+bool raiseSlowlyOnce(Plan &plan, const Course & /*course*/) noexcept {
   if (plan.heading != 0) {
     if (drawCurve(plan))
       return false;
@@ -269,9 +282,9 @@ bool raiseSlowly(Plan &plan, const Course & /*course*/) noexcept {
   return false;
 }
 
-bool stackHull(Plan &plan, const Course & /*course*/) noexcept {
+bool stackHullOnce(Plan &plan, const Course & /*course*/) noexcept {
   const int32_t i = plan.index;
-  Cell &cell = plan.cell[i];
+  Cell &cell = *(plan.cell + i);
   if (i == 0) {
     plan.stacked = 0;
     plan.curveSlope = 0.0;
@@ -279,7 +292,8 @@ bool stackHull(Plan &plan, const Course & /*course*/) noexcept {
   if (plan.round == 0)
     cell.bound = cell.square;
   cell.change = isRestCell(plan, i) ? 0.0 : 2.0 * changeIn(plan, i);
-  cell.lift = i > 0 ? plan.cell[i - 1].lift + plan.curveSlope * spanAt(plan, i - 1) : 0.0;
+  const Cell *const before = &cell - 1;
+  cell.lift = i > 0 ? before->lift + plan.curveSlope * spanAt(before) : 0.0;
   plan.curveSlope += cell.change;
   pushOntoHull(plan, i);
   ++plan.index;
@@ -299,7 +313,7 @@ bool stackHull(Plan &plan, const Course & /*course*/) noexcept {
   return true;
 }
 
-bool lowerToHull(Plan &plan, const Course & /*course*/) noexcept {
+bool lowerToHullOnce(Plan &plan, const Course & /*course*/) noexcept {
   const int32_t from = plan.stack[plan.valley];
   const int32_t to = plan.stack[plan.valley + 1];
   riseOverSpan(plan);
@@ -328,7 +342,7 @@ bool lowerToHull(Plan &plan, const Course & /*course*/) noexcept {
   return true;
 }
 
-bool check(Plan &plan, const Course &course) noexcept {
+bool checkOnce(Plan &plan, const Course &course) noexcept {
   const int32_t i = plan.index;
   if (i == 0)
     checkStart(plan, course);
@@ -343,13 +357,34 @@ bool check(Plan &plan, const Course &course) noexcept {
   return true;
 }
 
-bool slowDown(Plan &plan, const Course & /*course*/) noexcept {
+bool slowDownOnce(Plan &plan, const Course & /*course*/) noexcept {
   if (plan.worst <= kRounding || plan.index == plan.count)
     return true;
   // By that much all over: jerk and acceleration fall at least as far.
   plan.cell[plan.index].square /= plan.worst;
   ++plan.index;
   return false;
+}
+
+} // namespace
+
+bool findValleys(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<findValleysOnce>(plan, course, budget);
+}
+bool raiseSlowly(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<raiseSlowlyOnce>(plan, course, budget);
+}
+bool stackHull(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<stackHullOnce>(plan, course, budget);
+}
+bool lowerToHull(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<lowerToHullOnce>(plan, course, budget);
+}
+bool check(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<checkOnce>(plan, course, budget);
+}
+bool slowDown(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<slowDownOnce>(plan, course, budget);
 }
 
 } // namespace stride::path

@@ -7,28 +7,24 @@ namespace {
 using exact::larger;
 using exact::smaller;
 
-/// Limits of the axes at knot `i`: those of the cells on both sides.
-double alongAt(const Plan &plan, int32_t i) noexcept {
-  return larger(plan.cell[i].along, plan.cell[i + 1].along);
-}
-double acrossAt(const Plan &plan, int32_t i) noexcept {
-  return larger(plan.cell[i].across, plan.cell[i + 1].across);
-}
+/// Limits of the axes at the knot after a cell: those of the cells on both sides.
+double alongAt(const Cell *cell) noexcept { return larger(cell[0].along, cell[1].along); }
+double acrossAt(const Cell *cell) noexcept { return larger(cell[0].across, cell[1].across); }
 
-/// The greatest b at one side of knot `i` if there is `square` at the other one and the
+/// The greatest b at one side of the knot if there is `square` at the other one and the
 /// acceleration is at most `limit`.
-double squareBeyond(const Plan &plan, int32_t i, double square, double limit) noexcept {
-  const double span = spanAt(plan, i);
-  const double weight = alongAt(plan, i) / (2.0 * span);
-  const double byAxes = (1.0 + weight * square) / (weight + acrossAt(plan, i));
+double squareBeyond(const Cell *cell, double square, double limit) noexcept {
+  const double span = spanAt(cell);
+  const double weight = alongAt(cell) / (2.0 * span);
+  const double byAxes = (1.0 + weight * square) / (weight + acrossAt(cell));
   return smaller(square + 2.0 * limit * span, byAxes);
 }
 
-/// What the curve of the path leaves of the axes' acceleration at knot `i`, at most `limit`.
-double leftAt(const Plan &plan, int32_t i, double limit) noexcept {
-  const double square = larger(plan.cell[i].square, plan.cell[i + 1].square);
-  const double left = larger(1.0 - acrossAt(plan, i) * square, 0.0);
-  return smaller(limit, left / alongAt(plan, i));
+/// What the curve of the path leaves of the axes' acceleration at the knot.
+double leftAt(const Cell *cell) noexcept {
+  const double square = larger(cell[0].square, cell[1].square);
+  const double left = larger(1.0 - acrossAt(cell) * square, 0.0);
+  return left / alongAt(cell);
 }
 
 void setKnotLimits(Plan &plan, int32_t i) noexcept {
@@ -81,9 +77,7 @@ void goOnSlowing(Plan &plan, int32_t i, double ceiling) noexcept {
     plan.slowing = false;
 }
 
-} // namespace
-
-bool lowerBetweenCeilings(Plan &plan, const Course & /*course*/) noexcept {
+bool lowerBetweenCeilingsOnce(Plan &plan, const Course & /*course*/) noexcept {
   // b stays within the hull of three control points: with the least of three ceilings it is
   // nowhere above that of its cell.
   const int32_t i = plan.index;
@@ -110,61 +104,80 @@ bool lowerBetweenCeilings(Plan &plan, const Course & /*course*/) noexcept {
   return false;
 }
 
-bool accelerate(Plan &plan, const Course & /*course*/) noexcept {
+bool accelerateOnce(Plan &plan, const Course & /*course*/) noexcept {
   const int32_t i = plan.index;
   if (i + 1 >= plan.count)
     return true;
-  Cell &next = plan.cell[i + 1];
-  next.square = smaller(next.square, squareBeyond(plan, i, plan.cell[i].square, plan.cell[i].up));
+  Cell *const cell = plan.cell + i;
+  cell[1].square = smaller(cell[1].square, squareBeyond(cell, cell->square, cell->up));
   ++plan.index;
   return false;
 }
 
-bool brake(Plan &plan, const Course & /*course*/) noexcept {
+bool brakeOnce(Plan &plan, const Course & /*course*/) noexcept {
   const int32_t i = plan.count - 2 - plan.index;
   if (i < 0)
     return true;
-  Cell &cell = plan.cell[i];
-  const double most = squareBeyond(plan, i, plan.cell[i + 1].square, cell.down);
+  Cell *const cell = plan.cell + i;
+  const double most = squareBeyond(cell, cell[1].square, cell->down);
   if (i == 0 && !startsAtRest(plan)) {
-    if (most < cell.square)
+    if (most < cell->square)
       plan.state = PlanState::Failed;
     return true;
   }
-  cell.square = smaller(cell.square, most);
+  cell->square = smaller(cell->square, most);
   ++plan.index;
   return false;
 }
 
-bool limitForwards(Plan &plan, const Course & /*course*/) noexcept {
+bool limitForwardsOnce(Plan &plan, const Course & /*course*/) noexcept {
   const int32_t i = plan.index;
   if (i + 1 >= plan.count)
     return true;
-  Cell &cell = plan.cell[i];
-  cell.up = leftAt(plan, i, cell.up);
-  cell.down = leftAt(plan, i, cell.down);
+  Cell *const cell = plan.cell + i;
+  const double left = leftAt(cell);
+  cell->up = smaller(cell->up, left);
+  cell->down = smaller(cell->down, left);
   if (i > 0) {
     const double change = changeIn(plan, i);
     // The small acceleration with which a cell out of rest ends does not limit what comes after.
     if (i > 1 || !startsAtRest(plan))
-      cell.up = smaller(cell.up, plan.cell[i - 1].up + change);
-    cell.down = smaller(cell.down, plan.cell[i - 1].down + change);
+      cell->up = smaller(cell->up, cell[-1].up + change);
+    cell->down = smaller(cell->down, cell[-1].down + change);
   }
   ++plan.index;
   return false;
 }
 
-bool limitBackwards(Plan &plan, const Course & /*course*/) noexcept {
+bool limitBackwardsOnce(Plan &plan, const Course & /*course*/) noexcept {
   const int32_t i = plan.count - 3 - plan.index;
   if (i < 0)
     return true;
-  Cell &cell = plan.cell[i];
+  Cell *const cell = plan.cell + i;
   const double change = changeIn(plan, i + 1);
-  cell.up = smaller(cell.up, plan.cell[i + 1].up + change);
+  cell->up = smaller(cell->up, cell[1].up + change);
   if (i + 2 < plan.count - 1) // nor that with which one into rest begins what comes before
-    cell.down = smaller(cell.down, plan.cell[i + 1].down + change);
+    cell->down = smaller(cell->down, cell[1].down + change);
   ++plan.index;
   return false;
+}
+
+} // namespace
+
+bool lowerBetweenCeilings(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<lowerBetweenCeilingsOnce>(plan, course, budget);
+}
+bool accelerate(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<accelerateOnce>(plan, course, budget);
+}
+bool brake(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<brakeOnce>(plan, course, budget);
+}
+bool limitForwards(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<limitForwardsOnce>(plan, course, budget);
+}
+bool limitBackwards(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<limitBackwardsOnce>(plan, course, budget);
 }
 
 } // namespace stride::path

@@ -152,7 +152,9 @@ double presentOverride(const Plan &plan, const Course &course) noexcept {
   return larger(larger(plan.task.override, plan.task.before), plan.from.velocity / feed);
 }
 
-bool findRamp(Plan &plan, const Course &course) noexcept {
+namespace {
+
+bool findRampOnce(Plan &plan, const Course &course) noexcept {
   const PlanTask &task = plan.task;
   if (plan.rampRefused || plan.ramp > 0 || startsAtRest(plan) || task.rampPart >= 1.0 ||
       task.jerk == exact::kInfinity)
@@ -199,7 +201,7 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
   return false;
 }
 
-bool followRamp(Plan &plan, const Course &course) noexcept {
+bool followRampOnce(Plan &plan, const Course &course) noexcept {
   if (plan.ramp == 0 || plan.task.way > plan.from.way) // none, or passed
     return true;
   const Strip &strip = stripAt(course, plan.strip);
@@ -218,6 +220,15 @@ bool followRamp(Plan &plan, const Course &course) noexcept {
   plan.task.acceleration = 0.0;
   plan.firstStrip = plan.strip;
   return true;
+}
+
+} // namespace
+
+bool findRamp(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<findRampOnce>(plan, course, budget);
+}
+bool followRamp(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<followRampOnce>(plan, course, budget);
 }
 
 } // namespace stride::path

@@ -188,7 +188,9 @@ double steadyUntil(const Plan &plan, const Course &course, int64_t number) noexc
   return part.end - change / (2.0 * part.deceleration);
 }
 
-bool chooseRun(Plan &plan, const Course &course) noexcept {
+namespace {
+
+bool chooseRunOnce(Plan &plan, const Course &course) noexcept {
   const Strip &strip = stripAt(course, plan.strip);
   plan.end = plan.task.end;
   const Part part = partOf(plan, course, plan.strip);
@@ -216,7 +218,7 @@ bool chooseRun(Plan &plan, const Course &course) noexcept {
   return true;
 }
 
-bool reachBackwards(Plan &plan, const Course &course) noexcept {
+bool reachBackwardsOnce(Plan &plan, const Course &course) noexcept {
   const Part part = partOf(plan, course, plan.strip);
   const double square =
       reachAt(plan, plan.strip) + 2.0 * part.deceleration * (part.end - part.begin);
@@ -230,6 +232,8 @@ bool reachBackwards(Plan &plan, const Course &course) noexcept {
   --plan.strip;
   return false;
 }
+
+} // namespace
 
 int32_t piecesOf(const Plan &plan, const Course &course, int64_t strip,
                  TimePiece (&pieces)[3]) noexcept {
@@ -250,6 +254,13 @@ int32_t piecesOf(const Plan &plan, const Course &course, int64_t strip,
     pieces[count++] =
         linearPiece(part.end - down, down, exact::sqrt(peak), -part.deceleration, 0.0);
   return count;
+}
+
+bool chooseRun(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<chooseRunOnce>(plan, course, budget);
+}
+bool reachBackwards(Plan &plan, const Course &course, int32_t &budget) noexcept {
+  return repeat<reachBackwardsOnce>(plan, course, budget);
 }
 
 } // namespace stride::path

@@ -48,9 +48,11 @@ double arcOverArgument(double z) noexcept {
     factor *= 2.0 / root;
     z /= root * root;
   }
+  constexpr double kSeries[] = {1.0 / 17.0, 1.0 / 15.0, 1.0 / 13.0, 1.0 / 11.0, 1.0 / 9.0,
+                                1.0 / 7.0,  1.0 / 5.0,  1.0 / 3.0,  1.0};
   double sum = 1.0 / 19.0;
-  for (int k = 8; k >= 0; --k)
-    sum = sum * z + 1.0 / (2.0 * k + 1.0);
+  for (const double part : kSeries)
+    sum = sum * z + part;
   return factor * sum;
 }
 

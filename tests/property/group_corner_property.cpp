@@ -1,0 +1,217 @@
+// Corners between legs, judged by products of turns in numbers, by differences, and by the legs
+// that they join.
+#include "motion_problems.hpp"
+
+#include "runtime/numeric/group/corner.hpp"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace stride::group;
+using namespace stride::test;
+using Turn = Eigen::Matrix3d;
+using Point = Eigen::Vector3d;
+
+/// How both legs of a corner turn the tool.
+enum class Turns { Neither, FirstOnly, SecondOnly, AboutOneAxis, ThereAndBack, AboutTwoAxes };
+
+Point randomDirection(Random &random) {
+  const Point direction{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1)};
+  return direction.normalized();
+}
+
+Turn turnBy(double angle, const Point &about) {
+  return Eigen::AngleAxisd(angle, about).toRotationMatrix();
+}
+
+Pose poseAt(const Point &place, const Turn &turn) {
+  Pose pose{};
+  pose.place = {place.x(), place.y(), place.z()};
+  for (int i = 0; i < 9; ++i)
+    pose.turn[i] = turn(i / 3, i % 3);
+  return pose;
+}
+
+/// Two lines that meet, and the corner between them.
+struct Scene {
+  Leg before, after;
+  double cutBefore, cutAfter;
+  Corner corner;
+  Turn middle;     ///< How the tool is turned where the lines meet.
+  Point about[2];  ///< What it turns about on each.
+  double angle[2]; ///< By how much. [rad]
+};
+
+Scene makeScene(Random &random, Turns turns) {
+  Scene scene{};
+  scene.middle = turnBy(random.uniform(-3, 3), randomDirection(random));
+  scene.about[0] = turns == Turns::AboutOneAxis || turns == Turns::ThereAndBack
+                       ? Point::UnitZ()
+                       : randomDirection(random);
+  scene.about[1] = turns == Turns::AboutTwoAxes ? randomDirection(random) : scene.about[0];
+  scene.angle[0] = random.uniform(0.05, 1.5);
+  scene.angle[1] = random.uniform(0.05, 1.5);
+  if (turns == Turns::AboutOneAxis || turns == Turns::ThereAndBack)
+    scene.middle = turnBy(random.uniform(-3, 3), Point::UnitZ());
+  if (turns == Turns::ThereAndBack)
+    scene.angle[1] = -scene.angle[1];
+  if (turns == Turns::Neither || turns == Turns::SecondOnly)
+    scene.angle[0] = 0;
+  if (turns == Turns::Neither || turns == Turns::FirstOnly)
+    scene.angle[1] = 0;
+  const Point meet = 300 * randomDirection(random);
+  const double lengths[] = {random.uniform(20, 200), random.uniform(20, 200)};
+  const Point from = meet - lengths[0] * randomDirection(random);
+  const Point to = meet + lengths[1] * randomDirection(random);
+  const Turn first = turnBy(-scene.angle[0], scene.about[0]) * scene.middle;
+  const Turn last = turnBy(scene.angle[1], scene.about[1]) * scene.middle;
+  const MoreAxes more{{1, 2, 3, 4}, {1, 5, -7, 4.5}};
+  const MoreAxes then{{1, 5, -7, 4.5}, {2, 5, -9, 4}};
+  scene.before = lineLeg(poseAt(from, first), poseAt(meet, scene.middle), more);
+  scene.after = lineLeg(poseAt(meet, scene.middle), poseAt(to, last), then);
+  scene.cutBefore = random.uniform(0.05, 0.5) * scene.before.length;
+  scene.cutAfter = random.uniform(0.05, 0.5) * scene.after.length;
+  scene.corner = toolCorner(scene.before, scene.cutBefore, scene.after, scene.cutAfter);
+  return scene;
+}
+
+PathPlace at(const Corner &corner, double way) {
+  PathPlace place;
+  placeAt(corner, growing(way, 1.0), place);
+  return place;
+}
+PathPlace at(const Leg &leg, double way) {
+  PathPlace place;
+  placeAt(leg, growing(way, 1.0), place);
+  return place;
+}
+
+Turn turnAt(const PathPlace &place) {
+  Turn turn;
+  for (int i = 0; i < 9; ++i)
+    turn(i / 3, i % 3) = place.tool.turn(i / 3, i % 3).c[0];
+  return turn;
+}
+
+/// All numbers of a place: the point, the orientation, the axes that go along.
+constexpr int kNumbers = 12 + kMoreAxes;
+const Series &numberOf(const PathPlace &place, int i) {
+  if (i < 3)
+    return place.tool.place(i);
+  return i < 12 ? place.tool.turn((i - 3) / 3, (i - 3) % 3) : place.axes[kArmAxes + i - 12];
+}
+
+/// How far the parameter of a corner is at a part of its way: from both ends' speeds.
+double parameterAt(const Corner &corner, double part) {
+  const double change = corner.last - corner.first;
+  return corner.length *
+         (corner.first * part + change * (std::pow(part, 3) - std::pow(part, 4) / 2));
+}
+
+/// A way that comes to rest at 0 from `begin` with `speed`, over a parameter from 0 to 1.
+double comingToRest(double begin, double speed, double u) {
+  const double v = 1 - u; // seen from the end: v^3 (a + b v + c v^2), with no change of speed at 1
+  const double a = 10 * begin + 4 * speed;
+  const double b = -15 * begin - 7 * speed;
+  const double c = 6 * begin + 3 * speed;
+  return v * v * v * (a + v * (b + v * c));
+}
+
+class GroupCorner : public ::testing::TestWithParam<Turns> {};
+
+TEST_P(GroupCorner, TurnsByTheProductOfWhatItsLegsTurn) {
+  Random random(7101U + static_cast<unsigned>(GetParam()) * 10U);
+  for (int i = 0; i < 200; ++i) {
+    const Scene scene = makeScene(random, GetParam());
+    ASSERT_GT(scene.corner.length, 0);
+    for (const double part : {0.0, 0.11, 0.5, 0.83, 1.0}) {
+      const double u = parameterAt(scene.corner, part);
+      const double left = comingToRest(-scene.cutBefore, 1 / scene.corner.first, u);
+      const double entered = -comingToRest(-scene.cutAfter, 1 / scene.corner.last, 1 - u);
+      const double angles[] = {scene.angle[0] * left / scene.before.length,
+                               scene.angle[1] * entered / scene.after.length};
+      const Turn wanted =
+          turnBy(angles[1], scene.about[1]) * turnBy(angles[0], scene.about[0]) * scene.middle;
+      const Turn turn = turnAt(at(scene.corner, part * scene.corner.length));
+      EXPECT_LT((turn - wanted).norm(), 1e-13) << "part " << part;
+      EXPECT_LT((turn.transpose() * turn - Turn::Identity()).norm(), 1e-14);
+    }
+  }
+}
+
+TEST_P(GroupCorner, ItsSeriesAreThoseOfDifferences) {
+  Random random(7102U + static_cast<unsigned>(GetParam()) * 10U);
+  for (int i = 0; i < 200; ++i) {
+    const Scene scene = makeScene(random, GetParam());
+    const double length = scene.corner.length;
+    const double step = 1e-4 * length;
+    const double way = random.uniform(0.01, 0.99) * length;
+    const PathPlace before = at(scene.corner, way - step);
+    const PathPlace place = at(scene.corner, way);
+    const PathPlace after = at(scene.corner, way + step);
+    for (int k = 0; k < kNumbers; ++k)
+      for (int order = 0; order < 3; ++order) {
+        const double slope =
+            (numberOf(after, k).c[order] - numberOf(before, k).c[order]) / (2 * step);
+        const double unit = std::pow(length, order + 1);
+        const bool isTurn = k >= 3 && k < 12;
+        EXPECT_NEAR((order + 1) * numberOf(place, k).c[order + 1] * unit, slope * unit,
+                    1e-5 * (isTurn ? 1 : 1 + length))
+            << "number " << k << " order " << order;
+      }
+  }
+}
+
+TEST_P(GroupCorner, JoinsItsLegsWithoutAJumpOfVelocityAndAcceleration) {
+  Random random(7103U + static_cast<unsigned>(GetParam()) * 10U);
+  for (int i = 0; i < 200; ++i) {
+    const Scene scene = makeScene(random, GetParam());
+    const PathPlace ends[2][2] = {
+        {at(scene.before, scene.before.length - scene.cutBefore), at(scene.corner, 0)},
+        {at(scene.corner, scene.corner.length), at(scene.after, scene.cutAfter)}};
+    for (const auto &end : ends)
+      for (int k = 0; k < kNumbers; ++k)
+        for (int order = 0; order < 3; ++order)
+          EXPECT_NEAR(numberOf(end[0], k).c[order], numberOf(end[1], k).c[order],
+                      order == 0 ? 1e-12 * 1000 : 1e-11)
+              << "number " << k << " order " << order;
+  }
+}
+
+/// Where the axes lead, the way does not go evenly with the parameter.
+TEST(GroupCornerOfAxes, ItsSeriesAreThoseOfDifferences) {
+  Random random(7104);
+  for (int i = 0; i < 200; ++i) {
+    AxesEnd ends[2];
+    for (AxesEnd &end : ends) {
+      end.cut = random.uniform(1, 20);
+      for (Series &axis : end.axes)
+        for (double &c : axis.c)
+          c = random.uniform(-1, 1) / end.cut;
+    }
+    const Corner corner = axesCorner(ends[0], ends[1]);
+    const double step = 1e-4 * corner.length;
+    const double way = random.uniform(0.01, 0.99) * corner.length;
+    const PathPlace before = at(corner, way - step);
+    const PathPlace place = at(corner, way);
+    const PathPlace after = at(corner, way + step);
+    for (int k = 0; k < kAxes; ++k)
+      for (int order = 0; order < 3; ++order) {
+        const double slope = (after.axes[k].c[order] - before.axes[k].c[order]) / (2 * step);
+        const double unit = std::pow(corner.length, order + 1);
+        EXPECT_NEAR((order + 1) * place.axes[k].c[order + 1] * unit, slope * unit, 2e-3)
+            << "axis " << k << " order " << order;
+      }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllTurns, GroupCorner,
+                         ::testing::Values(Turns::Neither, Turns::FirstOnly, Turns::SecondOnly,
+                                           Turns::AboutOneAxis, Turns::ThereAndBack,
+                                           Turns::AboutTwoAxes));
+
+} // namespace
