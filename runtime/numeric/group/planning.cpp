@@ -111,6 +111,16 @@ bool receive(GroupMotion &group, GroupPlanning &planning) noexcept {
   return !planning.whole;
 }
 
+/// The group was planned in the axes' task till now: a law that is being written is written to its
+/// end, so that it ends in rest, and nothing else of that is gone on with.
+void endOwnSession(path::Motion &motion, int32_t steps) noexcept {
+  for (; motion.session == path::Session::Writing && steps > 0; --steps)
+    if (path::think(motion, 1) == 0)
+      return;
+  if (motion.session != path::Session::Writing)
+    motion.session = path::Session::None;
+}
+
 /// All that the axes' task has of the path.
 void writeWhole(const GroupMotion &group, PlanningMail &mail) noexcept {
   path::handOver(group.motion, group.motion.course.first, group.motion.law.first, mail.path);
@@ -245,6 +255,8 @@ bool follow(GroupMotion &group, GroupPlanning &planning, const GroupCommand &com
   if (group.alone) {
     group.awaits = false; // it shall not wait for a plan that it will not take
     (void)path::think(group.motion, command.steps);
+  } else {
+    endOwnSession(group.motion, command.steps);
   }
   return taken;
 }
@@ -260,7 +272,7 @@ void goOn(GroupMotion &group, GroupPlanning &planning, const Arm &arm,
 
 double post(GroupMotion &group, GroupPlanning &planning, const Arm &arm,
             const kinematics::AnyKinematics &kinematics, const GroupCommand &command) noexcept {
-  if (group.alone)
+  if (group.alone || group.motion.session != path::Session::None)
     return rebase(group);
   const MailHolder holder = holderOf(planning);
   if (holder == MailHolder::Planner || holder == MailHolder::Answered ||
