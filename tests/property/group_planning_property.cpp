@@ -1,7 +1,7 @@
 // Groups that are planned in another task, which is late, very late, or away for a while: they go
 // along the path that they would go along without it, keep every limit in and between cycles, come
-// to rest on their path when nothing is planned, and go on when it is. What stops at once does so
-// whoever plans; what does not waits for what has been promised.
+// to rest on their path when nothing is planned, and go on when it is. Stops and overrides act as
+// soon as without it: at once, or when what has been promised is over.
 #include "group_jobs.hpp"
 
 #include "runtime/numeric/group/kept_path.hpp"
@@ -41,7 +41,7 @@ public:
 
   void follow(const GroupCommand &command) {
     if (aside_)
-      (void)stride::group::follow(*group_, *planning_, command);
+      (void)stride::group::follow(*group_, *planning_, arm_, command);
     else
       plan(*group_, arm_, command);
   }
@@ -380,7 +380,7 @@ public:
   /// Drives for so many cycles; the other task plans in every 10th of them, or not at all.
   void drive(int cycles, bool plans, bool stop = false, bool atOnce = false) {
     for (int n = 0; n < cycles; ++n, ++now_) {
-      const GroupCommand command = tasks_.command(1, stop, kKeep, atOnce, kAllAllowed);
+      const GroupCommand command = tasks_.command(override_, stop, keep_, atOnce, allowance_);
       tasks_.follow(command);
       tasks_.goOnAndPost(command);
       if (plans && now_ % 10 == 0 && tasks_.takeJob()) {
@@ -392,6 +392,21 @@ public:
 
   static constexpr double kKeep = 0.3;
   void changePlanner() { tasks_.changePlanner(); }
+  void set(double override, double keep, const Allowance &allowance = kAllAllowed) {
+    override_ = override;
+    keep_ = keep;
+    allowance_ = allowance;
+  }
+  /// For how many cycles it goes on as fast as it did.
+  int cyclesToAct() {
+    const double speed = this->speed();
+    int cycles = 0;
+    while (cycles < 1000 && std::fabs(this->speed() - speed) < 1e-9) {
+      drive(1, true);
+      ++cycles;
+    }
+    return cycles;
+  }
 
 private:
   std::unique_ptr<GroupMotion> longMotion(double length) {
@@ -410,6 +425,9 @@ private:
 
   Machine machine_;
   Tasks tasks_;
+  double override_ = 1;
+  double keep_ = kKeep;
+  Allowance allowance_ = kAllAllowed;
   int now_ = 0;
 };
 
@@ -459,6 +477,32 @@ TEST(GroupPlanning, WaitsOnItsPathUntilSomebodyPlans) {
   way.drive(200'000 / 8, true);
   EXPECT_EQ(outcomeOf(way.group(), 1), Outcome::Done);
   EXPECT_NEAR(way.group().axes[0], 5000, 1e-9);
+}
+
+/// Overrides act as soon as they do without a planning task, to the cycle.
+TEST(GroupPlanning, OverridesActAsWithoutIt) {
+  for (const double keep : {0.0, 0.1, 0.3})
+    for (const double override : {0.9, 0.5, 0.1, 0.0}) {
+      SCOPED_TRACE(testing::Message() << "override " << override << ", forecast " << keep);
+      LongWay aside;
+      LongWay own;
+      own.changePlanner();
+      int cycles[2] = {};
+      for (LongWay *way : {&own, &aside}) {
+        way->set(1, keep);
+        way->drive(2003, true);
+        ASSERT_NEAR(way->speed(), LongWay::kSpeed, 1e-6);
+        way->set(override, keep);
+        cycles[way == &aside ? 1 : 0] = way->cyclesToAct();
+        way->drive(400, true);
+        EXPECT_NEAR(way->speed(), override * LongWay::kSpeed, 1e-6);
+        way->set(0.7, keep);
+        way->drive(1000, true);
+        EXPECT_NEAR(way->speed(), 0.7 * LongWay::kSpeed, 1e-6);
+      }
+      EXPECT_EQ(cycles[1], cycles[0]);
+      EXPECT_LE(cycles[1], 1000 * keep + (override > 0 ? 35 : 1) + 1);
+    }
 }
 
 } // namespace

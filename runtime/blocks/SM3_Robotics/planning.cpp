@@ -42,7 +42,7 @@ void planGroup(GroupRef &group, const GroupArm &arm, const group::GroupCommand &
     return;
   }
   GroupPlanning &planning = planningOf(*group.pPlanning);
-  if (group::follow(state.motion, planning, command))
+  if (group::follow(state.motion, planning, arm.arm, command))
     markUncapped(state, planning, command);
 }
 

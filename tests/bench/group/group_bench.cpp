@@ -62,7 +62,7 @@ public:
   void follow() {
     while (group_->next - group_->first < 4)
       order();
-    (void)stride::group::follow(*group_, *planning_, kCommand);
+    (void)stride::group::follow(*group_, *planning_, arm(), kCommand);
   }
   void goAndPost() {
     goOn(*group_, *planning_, arm(), kCommand);
