@@ -53,6 +53,45 @@ axes = ["X", "Y"]
 kinematics = "Kin_Gantry2"
 )";
 
+/// A kinematics that a program has written itself.
+constexpr const char *kOwn = R"(FUNCTION_BLOCK OwnPortal IMPLEMENTS TRAFO.MC_KIN_REF_SM3
+PROPERTY NumAxes : UDINT
+GET
+NumAxes := 2;
+END_GET
+END_PROPERTY
+METHOD AxesToCartesian : SMC_ERROR
+VAR_IN_OUT
+  f  : SM3M.SMC_Frame;
+  cd : TRAFO.CONFIGDATA;
+END_VAR
+VAR_IN_OUT CONSTANT
+  a : TRAFO.AXISPOS_REF;
+END_VAR
+f.vT.dX := a.a0;
+f.vT.dY := a.a1;
+f.vT.dZ := 0;
+f.mR.m[0, 0] := 1;
+f.mR.m[1, 1] := 1;
+f.mR.m[2, 2] := 1;
+AxesToCartesian := SMC_ERROR.SMC_NO_ERROR;
+END_METHOD
+METHOD CartesianToAxes : SMC_ERROR
+VAR_IN_OUT
+  a : TRAFO.AXISPOS_REF;
+END_VAR
+VAR_IN_OUT CONSTANT
+  f    : SM3M.SMC_Frame;
+  aRef : TRAFO.AXISPOS_REF;
+  cd   : TRAFO.CONFIGDATA;
+END_VAR
+a.a0 := f.vT.dX;
+a.a1 := f.vT.dY;
+CartesianToAxes := SMC_ERROR.SMC_NO_ERROR;
+END_METHOD
+END_FUNCTION_BLOCK
+)";
+
 /// Two lines with a corner, and a third one after a rest.
 constexpr const char *kMain = R"(PROGRAM Main
 VAR
@@ -121,6 +160,17 @@ protected:
     text.insert(text.find("VAR\n") + 4, insert);
     write("p/Main.st", text);
     const ProcessResult built = stride({"build", "p", "-o", name + ".so", "-W", "off=lints"});
+    ASSERT_EQ(built.exitCode, 0) << built.err;
+  }
+
+  /// Likewise, with a kinematics of the program's own.
+  void buildOwnAs(const std::string &name, bool aside) {
+    std::string project = kProject;
+    const std::string block = "Kin_Gantry2";
+    project.replace(project.find(block), block.size(), "OwnPortal");
+    write("own/stride.toml", project + (aside ? "planning_task = \"Slow\"\n" : ""));
+    write("own/Main.st", std::string(kOwn) + kMain);
+    const ProcessResult built = stride({"build", "own", "-o", name + ".so", "-W", "off=lints"});
     ASSERT_EQ(built.exitCode, 0) << built.err;
   }
 
@@ -224,6 +274,21 @@ TEST_F(PlanningChange, APlanningTaskComesAndGoes) {
     expectSmooth(rows("given.csv"));
     EXPECT_LE(apart(rows("given.csv"), path), 1e-3);
   }
+}
+
+// A program's own kinematics is not asked in two tasks: who gets a planning task on the way goes on
+// without it, and a group that has one from the start is refused.
+TEST_F(PlanningChange, OwnKinematicsStayInTheTaskOfTheAxes) {
+  buildOwnAs("own", false);
+  buildOwnAs("aside", true);
+  const ProcessResult without = simulate("own", "--out without.csv");
+  EXPECT_EQ(without.out, "Main.Order = '123'\n") << without.err;
+  const ProcessResult with =
+      simulate("own", "--out with.csv --change T#701ms,aside.so && cmp without.csv with.csv");
+  EXPECT_EQ(with.exitCode, 0) << with.out;
+  EXPECT_THAT(with.err, IsEmpty());
+  EXPECT_EQ(simulate("aside", "--out x.csv --print Main.Enable.ErrorID").out,
+            "Main.Order = ''\nMain.Enable.ErrorID = SMC_AXIS_GROUP_NOT_WITH_PLANNING_TASK\n");
 }
 
 // With threads: the axes' task and the one that plans run when the change comes.

@@ -171,6 +171,8 @@ void writeJob(const GroupMotion &group, GroupPlanning &planning, const Arm &arm,
   job.clock = planning.clock;
   job.late = planning.late;
   job.command = command;
+  job.ride = group.ride;
+  job.left = group.left;
   job.joints = arm.joints;
   job.more = arm.more;
   for (int32_t k = 0; k < kAxes; ++k)
@@ -197,8 +199,8 @@ void beginAnew(GroupMotion &planner, const PlanningMail &mail) noexcept {
   planner.epoch = job.epoch;
 }
 
-/// The motion is where the job says. What is planned now is taken later: it is where it will be
-/// then.
+/// The motion is where the job says, and what moves the path's system, too. What is planned now is
+/// taken later: the motion is where it will be then.
 void stand(GroupMotion &planner, const PlanningJob &job, double interval) noexcept {
   path::Motion &motion = planner.motion;
   motion.law.first = job.place.piece;
@@ -211,6 +213,8 @@ void stand(GroupMotion &planner, const PlanningJob &job, double interval) noexce
   motion.gate = job.gate;
   planner.first = job.first;
   planner.dwelling = job.dwelling;
+  planner.ride = job.ride;
+  planner.left = job.left;
   planner.planTime = 2.0 * interval + job.late;
   __builtin_memcpy(planner.axes, job.axes, sizeof planner.axes);
 }

@@ -45,6 +45,7 @@ struct PlanningJob {
   kinematics::AnyKinematics kinematics;
   int32_t joints, more; ///< See Arm.
   AxisLimits limits[kAxes];
+  Ride ride, left; ///< See GroupMotion.
 };
 
 /// What the other task answers.
