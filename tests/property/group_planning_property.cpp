@@ -1,7 +1,7 @@
 // Groups that are planned in another task, which is late, very late, or away for a while: they go
 // along the path that they would go along without it, keep every limit in and between cycles, come
-// to rest on their path when nothing is planned, and go on when it is. What stops at once does so
-// whoever plans; what does not waits for what has been promised.
+// to rest on their path when nothing is planned, and go on when it is. Stops and overrides act as
+// soon as without it: at once, or when what has been promised is over.
 #include "group_jobs.hpp"
 
 #include "runtime/numeric/group/kept_path.hpp"
@@ -40,9 +40,17 @@ public:
   }
 
   void follow(const GroupCommand &command) {
-    (void)stride::group::follow(*group_, *planning_, command);
+    if (aside_)
+      (void)stride::group::follow(*group_, *planning_, arm_, command);
+    else
+      plan(*group_, arm_, command);
   }
   void goOnAndPost(const GroupCommand &command) {
+    if (!aside_) {
+      goOn(*group_, arm_, command);
+      (void)rebase(*group_);
+      return;
+    }
     goOn(*group_, *planning_, arm_, command);
     (void)post(*group_, *planning_, arm_, machine_.kinematics, command);
     if (command.stop && command.atOnce) {
@@ -50,7 +58,16 @@ public:
     }
   }
 
-  bool takeJob() { return stride::group::takeJob(*planning_); }
+  /// An online change makes another task plan, or none.
+  void changePlanner() {
+    aside_ = !aside_;
+    if (aside_)
+      planning_ = std::make_unique<GroupPlanning>();
+    else
+      std::memset(static_cast<void *>(planning_.get()), 0xA5, sizeof(GroupPlanning));
+  }
+
+  bool takeJob() { return aside_ && stride::group::takeJob(*planning_); }
   /// The result is not seen before answerJob.
   void doJob(double interval) {
     stride::group::doJob(*planning_, {interval, steps(interval), 24 * milliseconds(interval)});
@@ -78,6 +95,7 @@ private:
   Machine machine_;
   Arm arm_;
   double cycle_;
+  bool aside_ = true;
 };
 
 /// How a task that plans behaves.
@@ -131,6 +149,7 @@ public:
   /// How much longer it took than planned in the axes' task.
   double slower() const { return static_cast<double>(cycles_) / static_cast<double>(taken_); }
   void disturbs(bool yes) { disturbs_ = yes; }
+  void changes(bool yes) { changes_ = yes; }
 
 private:
   void step() {
@@ -153,6 +172,8 @@ private:
       continueAfterStop();
     if (jobs_.random().chance(0.003) && !working_)
       tasks_.relocate();
+    if (changes_ && !working_ && jobs_.random().chance(0.02))
+      tasks_.changePlanner();
   }
 
   /// The other task, when it gets to run.
@@ -279,6 +300,7 @@ private:
   double override_ = 1;
   Allowance allowance_ = kAllAllowed;
   bool disturbs_ = true;
+  bool changes_ = false; ///< Who plans changes now and then.
   bool stopping_ = false;
   bool atOnce_ = false;
   int working_ = 0; ///< Cycles until the other task has answered.
@@ -295,7 +317,8 @@ int wanted(int cases) {
   return more != nullptr ? std::atoi(more) : casesOf(cases);
 }
 
-void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slower) {
+void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slower,
+             bool changes = false) {
   const char *const only = std::getenv("STRIDE_GROUP_CASE");
   int stops = 0;
   int followed = 0;
@@ -305,6 +328,7 @@ void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slowe
     SCOPED_TRACE(testing::Message() << "case " << i);
     Comparison comparison(seed + static_cast<unsigned>(i), habit);
     comparison.disturbs(disturbs);
+    comparison.changes(changes);
     if (!comparison.run())
       continue;
     ++followed;
@@ -335,10 +359,17 @@ TEST(GroupPlanning, RestsWhereNothingIsPlannedAndGoesOn) {
   compare(Habit::Moody, true, 82'000, wanted(40), slower);
 }
 
-/// A long way at speed: 3 axes with known limits.
+/// As online changes do that give a group a planning task, or take it away.
+TEST(GroupPlanning, GoesOnWhoeverPlansFromNowOn) {
+  double slower = 0;
+  compare(Habit::Late, true, 83'000, wanted(40), slower, true);
+}
+
+/// A way of one axis at speed: 3 axes with known limits.
 class LongWay {
 public:
-  LongWay() : machine_(gantry()), tasks_(longMotion(), machine_, kCycle) {}
+  explicit LongWay(double length = 5000)
+      : machine_(gantry()), tasks_(longMotion(length), machine_, kCycle) {}
 
   static constexpr double kCycle = 0.001;
   static constexpr double kSpeed = 200;
@@ -349,7 +380,7 @@ public:
   /// Drives for so many cycles; the other task plans in every 10th of them, or not at all.
   void drive(int cycles, bool plans, bool stop = false, bool atOnce = false) {
     for (int n = 0; n < cycles; ++n, ++now_) {
-      const GroupCommand command = tasks_.command(1, stop, kKeep, atOnce, kAllAllowed);
+      const GroupCommand command = tasks_.command(override_, stop, keep_, atOnce, allowance_);
       tasks_.follow(command);
       tasks_.goOnAndPost(command);
       if (plans && now_ % 10 == 0 && tasks_.takeJob()) {
@@ -360,12 +391,28 @@ public:
   }
 
   static constexpr double kKeep = 0.3;
+  void changePlanner() { tasks_.changePlanner(); }
+  void set(double override, double keep, const Allowance &allowance = kAllAllowed) {
+    override_ = override;
+    keep_ = keep;
+    allowance_ = allowance;
+  }
+  /// For how many cycles it goes on as fast as it did.
+  int cyclesToAct() {
+    const double speed = this->speed();
+    int cycles = 0;
+    while (cycles < 1000 && std::fabs(this->speed() - speed) < 1e-9) {
+      drive(1, true);
+      ++cycles;
+    }
+    return cycles;
+  }
 
 private:
-  std::unique_ptr<GroupMotion> longMotion() {
+  std::unique_ptr<GroupMotion> longMotion(double length) {
     for (AxisLimits &limits : machine_.limits)
       limits = {kSpeed, 2000, 40'000, -1e6, 1e6};
-    const double to[kAxes] = {5000};
+    const double to[kAxes] = {length};
     double perTime[kAxes];
     std::fill(std::begin(perTime), std::end(perTime), kSpeed);
     auto group = std::make_unique<GroupMotion>();
@@ -378,6 +425,9 @@ private:
 
   Machine machine_;
   Tasks tasks_;
+  double override_ = 1;
+  double keep_ = kKeep;
+  Allowance allowance_ = kAllAllowed;
   int now_ = 0;
 };
 
@@ -402,6 +452,16 @@ TEST(GroupPlanning, StopsAtOnceWhoeverPlans) {
   EXPECT_EQ(late.speed(), 0);
 }
 
+/// It does not wait for a plan of a task that does not plan for it any more.
+TEST(GroupPlanning, BeginsThoughWhoWasAtItIsGone) {
+  LongWay way(2); // which takes less than what is kept
+  way.drive(1, false);
+  way.group().awaits = true; // as after an answer that says that more comes
+  way.changePlanner();
+  way.drive(300, false);
+  EXPECT_EQ(outcomeOf(way.group(), 1), Outcome::Done);
+}
+
 /// Where nobody plans any more it rests on its path, with what has been promised kept until then,
 /// and goes on when somebody does.
 TEST(GroupPlanning, WaitsOnItsPathUntilSomebodyPlans) {
@@ -417,6 +477,32 @@ TEST(GroupPlanning, WaitsOnItsPathUntilSomebodyPlans) {
   way.drive(200'000 / 8, true);
   EXPECT_EQ(outcomeOf(way.group(), 1), Outcome::Done);
   EXPECT_NEAR(way.group().axes[0], 5000, 1e-9);
+}
+
+/// Overrides act as soon as they do without a planning task, to the cycle.
+TEST(GroupPlanning, OverridesActAsWithoutIt) {
+  for (const double keep : {0.0, 0.1, 0.3})
+    for (const double override : {0.9, 0.5, 0.1, 0.0}) {
+      SCOPED_TRACE(testing::Message() << "override " << override << ", forecast " << keep);
+      LongWay aside;
+      LongWay own;
+      own.changePlanner();
+      int cycles[2] = {};
+      for (LongWay *way : {&own, &aside}) {
+        way->set(1, keep);
+        way->drive(2003, true);
+        ASSERT_NEAR(way->speed(), LongWay::kSpeed, 1e-6);
+        way->set(override, keep);
+        cycles[way == &aside ? 1 : 0] = way->cyclesToAct();
+        way->drive(400, true);
+        EXPECT_NEAR(way->speed(), override * LongWay::kSpeed, 1e-6);
+        way->set(0.7, keep);
+        way->drive(1000, true);
+        EXPECT_NEAR(way->speed(), 0.7 * LongWay::kSpeed, 1e-6);
+      }
+      EXPECT_EQ(cycles[1], cycles[0]);
+      EXPECT_LE(cycles[1], 1000 * keep + (override > 0 ? 35 : 1) + 1);
+    }
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "group_machines.hpp"
 #include "motion_problems.hpp"
 
+#include "runtime/numeric/group/planning.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
 #include <Eigen/Geometry>
@@ -149,9 +150,12 @@ struct Worst {
 
 class RideDrive {
 public:
-  RideDrive(unsigned seed, bool nonlinear, CarrierKind kind)
+  /// `aside`: another task plans.
+  RideDrive(unsigned seed, bool nonlinear, CarrierKind kind, bool aside)
       : random_(seed), machine_(nonlinear ? scara() : gantry()),
-        group_(std::make_unique<GroupMotion>()), cycle_(0.002), arm_(machine_.arm()) {
+        group_(std::make_unique<GroupMotion>()),
+        planning_(aside ? std::make_unique<GroupPlanning>() : nullptr),
+        every_(1 + static_cast<int>(seed % 7)), cycle_(0.002), arm_(machine_.arm()) {
     for (int k = 0; k < kAxes; ++k)
       machine_.limits[k] = {random_.uniform(120, 500), random_.uniform(500, 5000),
                             random_.uniform(8000, 90000), -1e4, 1e4};
@@ -234,7 +238,10 @@ private:
     command.carrier = carrier_->state();
     if (group_->ride.follows && group_->ride.system.kind == CarrierKind::Tool)
       group_->ride.system = carrier_->system();
-    cycle(*group_, arm_, command);
+    if (planning_ != nullptr)
+      cycleBesidePlanner(command);
+    else
+      cycle(*group_, arm_, command);
     ASSERT_EQ(group_->obstacle, Obstacle::None);
     for (int k = 0; k < machine_.joints; ++k) {
       const AxisLimits &limits = machine_.limits[k];
@@ -248,9 +255,26 @@ private:
     }
   }
 
+  /// The other task runs in one cycle of so many, and takes up to six.
+  void cycleBesidePlanner(const GroupCommand &command) {
+    (void)follow(*group_, *planning_, arm_, command);
+    goOn(*group_, *planning_, arm_, command);
+    (void)post(*group_, *planning_, arm_, machine_.kinematics, command);
+    if (working_ > 0 && --working_ == 0)
+      answerJob(*planning_);
+    if (working_ > 0 || ++cycles_ % every_ != 0 || !takeJob(*planning_))
+      return;
+    doJob(*planning_, {every_ * cycle_, every_ * command.steps, every_ * command.samples});
+    working_ = 1 + (cycles_ / every_) % 6;
+  }
+
   Random random_;
   Machine machine_;
   std::unique_ptr<GroupMotion> group_;
+  std::unique_ptr<GroupPlanning> planning_;
+  int every_;
+  int working_ = 0; ///< Cycles until the other task has answered.
+  int cycles_ = 0;
   double cycle_;
   Arm arm_;
   std::unique_ptr<Carrier> carrier_;
@@ -263,11 +287,11 @@ int wanted(int cases) {
   return more != nullptr ? std::atoi(more) : casesOf(cases);
 }
 
-Worst driveAll(bool nonlinear, CarrierKind kind, bool steady) {
+Worst driveAll(bool nonlinear, CarrierKind kind, bool steady, bool aside) {
   Worst worst;
   for (int i = 0; i < wanted(40) && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i);
-    RideDrive drive(3000U + static_cast<unsigned>(i), nonlinear, kind);
+    RideDrive drive(3000U + static_cast<unsigned>(i), nonlinear, kind, aside);
     drive.run(steady);
     worst.velocity = std::max(worst.velocity, drive.worst().velocity);
     worst.acceleration = std::max(worst.acceleration, drive.worst().acceleration);
@@ -281,13 +305,13 @@ Worst driveAll(bool nonlinear, CarrierKind kind, bool steady) {
 
 /// With a belt whose velocity does not change, axes keep their limits; on a table, nearly so.
 /// Changes that nobody could know of come on top.
-void expectWithinLimits(bool nonlinear, CarrierKind kind) {
-  const Worst steady = driveAll(nonlinear, kind, true);
+void expectWithinLimits(bool nonlinear, CarrierKind kind, bool aside = false) {
+  const Worst steady = driveAll(nonlinear, kind, true, aside);
   const double more = kind == CarrierKind::Belt ? 1e-6 : 0.03;
   EXPECT_LE(steady.velocity, 1 + more);
   EXPECT_LE(steady.acceleration, 1 + more);
   EXPECT_LE(steady.jerk, 1.0001 + more);
-  const Worst any = driveAll(nonlinear, kind, false);
+  const Worst any = driveAll(nonlinear, kind, false, aside);
   EXPECT_LE(any.velocity, 1.05);
   EXPECT_LE(any.acceleration, 1.15);
   EXPECT_LE(any.jerk, 1.51);
@@ -296,8 +320,8 @@ void expectWithinLimits(bool nonlinear, CarrierKind kind) {
 
 /// How a tool goes on nobody knows: what it changes comes on top, and up to 1.1 times an axis's
 /// velocity is no error.
-void expectOnTool(bool nonlinear) {
-  const Worst any = driveAll(nonlinear, CarrierKind::Tool, true);
+void expectOnTool(bool nonlinear, bool aside = false) {
+  const Worst any = driveAll(nonlinear, CarrierKind::Tool, true, aside);
   EXPECT_LE(any.velocity, 1.1);
   EXPECT_LE(any.acceleration, 1.15);
   EXPECT_LE(any.jerk, 1.51);
@@ -310,5 +334,13 @@ TEST(GroupRide, PortalOnBelt) { expectWithinLimits(false, CarrierKind::Belt); }
 TEST(GroupRide, PortalOnTable) { expectWithinLimits(false, CarrierKind::Table); }
 TEST(GroupRide, ScaraOnBelt) { expectWithinLimits(true, CarrierKind::Belt); }
 TEST(GroupRide, ScaraOnTable) { expectWithinLimits(true, CarrierKind::Table); }
+
+// The same with a planning task.
+TEST(GroupRide, PortalOnToolPlannedAside) { expectOnTool(false, true); }
+TEST(GroupRide, ScaraOnToolPlannedAside) { expectOnTool(true, true); }
+TEST(GroupRide, PortalOnBeltPlannedAside) { expectWithinLimits(false, CarrierKind::Belt, true); }
+TEST(GroupRide, PortalOnTablePlannedAside) { expectWithinLimits(false, CarrierKind::Table, true); }
+TEST(GroupRide, ScaraOnBeltPlannedAside) { expectWithinLimits(true, CarrierKind::Belt, true); }
+TEST(GroupRide, ScaraOnTablePlannedAside) { expectWithinLimits(true, CarrierKind::Table, true); }
 
 } // namespace

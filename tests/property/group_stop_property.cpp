@@ -3,6 +3,8 @@
 // long enough for that.
 #include "group_jobs.hpp"
 
+#include "runtime/numeric/group/planning.hpp"
+
 #include <cstdlib>
 
 namespace {
@@ -21,8 +23,10 @@ double softWay(double v, double from, double a, double j) {
 /// One movement of the axes that is stopped anywhere.
 class SoftStop {
 public:
-  explicit SoftStop(unsigned seed)
+  /// `aside`: another task plans in every so many cycles, till the stop; 0: there is none.
+  SoftStop(unsigned seed, int aside)
       : random_(seed), machine_(randomMachine(random_)), group_(std::make_unique<GroupMotion>()),
+        planning_(std::make_unique<GroupPlanning>()), aside_(aside),
         cycle_(random_.magnitude(-3.3, -2.7)) {
     reset(*group_, machine_.home);
     order_.velocityFactor = random_.uniform(0.3, 1);
@@ -37,8 +41,11 @@ public:
   bool run() {
     const double length = group_->movement[0].leg.length;
     const double at = random_.uniform(0.02, 0.7) * length;
-    for (int n = 0; n < 100'000 && group_->motion.way < at; ++n)
-      cycle(*group_, machine_.arm(), command_);
+    for (int n = 0; n < 100'000 && group_->motion.way < at; ++n) {
+      step();
+      if (aside_ > 0 && n % aside_ == 0)
+        planAside(*planning_, {aside_ * cycle_, aside_ * command_.steps, 24 * aside_});
+    }
     command_.stop = true;
     command_.accelerationPart = random_.uniform(0.1, 1);
     command_.jerkPart = random_.uniform(0.1, 1);
@@ -91,6 +98,16 @@ private:
     return machine_.limits[k].jerk * order_.jerkFactor * command_.jerkPart;
   }
 
+  void step() {
+    if (aside_ == 0) {
+      cycle(*group_, machine_.arm(), command_);
+      return;
+    }
+    (void)follow(*group_, *planning_, machine_.arm(), command_);
+    goOn(*group_, *planning_, machine_.arm(), command_);
+    (void)post(*group_, *planning_, machine_.arm(), machine_.kinematics, command_);
+  }
+
   void brake(bool isEnough) {
     bool brakes = false; // an acceleration ends as it was planned
     double start[kAxes];
@@ -99,7 +116,7 @@ private:
     for (int n = 0; n < 200'000 && !isAtRest(*group_); ++n) {
       double before[kAxes];
       std::copy(std::begin(group_->acceleration), std::end(group_->acceleration), before);
-      cycle(*group_, machine_.arm(), command_);
+      step();
       for (int k = 0; k < kAxes && isEnough; ++k)
         if (isOfMachine(machine_, k))
           look(k, start[k], before[k], brakes);
@@ -130,19 +147,21 @@ private:
   Random random_;
   Machine machine_;
   std::unique_ptr<GroupMotion> group_;
+  std::unique_ptr<GroupPlanning> planning_;
+  int aside_;
   double cycle_;
   Order order_{};
   GroupCommand command_{};
   double hardest_ = 0;
 };
 
-TEST(GroupStop, KeepsThePartOfTheAxesLimitsThatItMayTake) {
+void stopAll(unsigned seed, int aside) {
   const int cases = casesOf(400);
   int enough = 0;
   int hard = 0;
-  for (int i = 0; i < cases && !HasFailure(); ++i) {
+  for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i);
-    SoftStop stop(7000U + static_cast<unsigned>(i));
+    SoftStop stop(seed + static_cast<unsigned>(i), aside > 0 ? 1 + i % aside : 0);
     enough += stop.run() ? 1 : 0;
     hard += stop.hardest() > 0.99 ? 1 : 0;
   }
@@ -150,5 +169,10 @@ TEST(GroupStop, KeepsThePartOfTheAxesLimitsThatItMayTake) {
   EXPECT_GE(enough, cases / 3);
   EXPECT_GE(hard, cases / 20);
 }
+
+TEST(GroupStop, KeepsThePartOfTheAxesLimitsThatItMayTake) { stopAll(7000, 0); }
+
+/// Which plans no more from the stop on.
+TEST(GroupStop, KeepsItWithAPlanningTask) { stopAll(7000, 9); }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
 
 #include "runtime/axis/axis_ref.hpp"
-#include "runtime/blocks/SM3_Robotics/planning.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
@@ -136,8 +135,6 @@ int16_t whyNotSet(const GroupRef &group, int16_t system) noexcept {
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
-  if (isPlannedAside(group)) // what moves is looked at in each cycle
-    return error::SMC_ERROR__SMC_AXIS_GROUP_NOT_WITH_PLANNING_TASK;
   return isInUse(group, system) ? error::SMC_ERROR__SMC_AXIS_GROUP_PCS_STILL_IN_USE : int16_t{0};
 }
 

@@ -50,6 +50,10 @@ void GroupArm::setTool(const Tool &tool) {
   outcome = kinematics_.setTool(frameOf(tool));
 }
 
+bool GroupArm::isPlain() const noexcept {
+  return kinematics_.check() != kinematics::Outcome::Done || kinematics_.plain() != nullptr;
+}
+
 const kinematics::AnyKinematics &GroupArm::plainKinematics() const noexcept {
   const kinematics::AnyKinematics *const plain = kinematics_.plain();
   return kinematics_.check() == kinematics::Outcome::Done && plain != nullptr ? *plain : none_;

@@ -22,8 +22,9 @@ public:
   /// Another tool in place of the present one.
   void setTool(const Tool &tool);
 
-  /// Its kinematics as plain data, which nobody asks where there is none. Not of a program's own
-  /// kinematics.
+  /// Whether its kinematics is plain data, or there is none: a program's own one is not.
+  bool isPlain() const noexcept;
+  /// Its kinematics as plain data, which nobody asks where there is none.
   const kinematics::AnyKinematics &plainKinematics() const noexcept;
 
 private:

@@ -21,6 +21,11 @@ bool isSame(const group::AxisCap &a, const group::AxisCap &b) noexcept {
   return a.velocity == b.velocity && a.acceleration == b.acceleration && a.jerk == b.jerk;
 }
 
+/// An online change may give a planning task to a group with a program's own kinematics.
+bool plansAside(const GroupRef &group, const GroupArm &arm) noexcept {
+  return isPlannedAside(group) && arm.isPlain();
+}
+
 /// Parts of the path that have been made known before an ancillary limit was there are not planned
 /// with it.
 void markUncapped(GroupState &state, const GroupPlanning &planning,
@@ -37,18 +42,18 @@ void markUncapped(GroupState &state, const GroupPlanning &planning,
 
 void planGroup(GroupRef &group, const GroupArm &arm, const group::GroupCommand &command) noexcept {
   GroupState &state = stateOf(group);
-  if (!isPlannedAside(group)) {
+  if (!plansAside(group, arm)) {
     group::plan(state.motion, arm.arm, command);
     return;
   }
   GroupPlanning &planning = planningOf(*group.pPlanning);
-  if (group::follow(state.motion, planning, command))
+  if (group::follow(state.motion, planning, arm.arm, command))
     markUncapped(state, planning, command);
 }
 
 void goOnGroup(GroupRef &group, const GroupArm &arm, const group::GroupCommand &command) noexcept {
   group::GroupMotion &motion = stateOf(group).motion;
-  if (isPlannedAside(group))
+  if (plansAside(group, arm))
     group::goOn(motion, planningOf(*group.pPlanning), arm.arm, command);
   else
     group::goOn(motion, arm.arm, command);
@@ -57,7 +62,7 @@ void goOnGroup(GroupRef &group, const GroupArm &arm, const group::GroupCommand &
 double finishCycle(GroupRef &group, const GroupArm &arm,
                    const group::GroupCommand &command) noexcept {
   group::GroupMotion &motion = stateOf(group).motion;
-  if (!isPlannedAside(group))
+  if (!plansAside(group, arm))
     return group::rebase(motion);
   return group::post(motion, planningOf(*group.pPlanning), arm.arm, arm.plainKinematics(), command);
 }

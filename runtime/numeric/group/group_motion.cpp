@@ -257,6 +257,7 @@ void prepare(GroupMotion &group, const GroupCommand &command) noexcept {
 
 void plan(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
   prepare(group, command);
+  group.awaits = false; // an online change may have brought the planning here
   makeKnown(group, arm, command.allowance, command.samples);
   (void)path::think(group.motion, command.steps);
 }

@@ -145,11 +145,11 @@ struct GroupMotion {
   Ride left;                     ///< The one in which it was before, until that rests.
   Pose tool;                     ///< In the path's system, if that moves.
   double planTime; ///< How much later than here plans may be made; see planning.hpp. [s]
-  int64_t epoch;   ///< How often it has been reset.
+  int64_t epoch;   ///< How often what is planned elsewhere has come to nothing: by a reset, …
   bool dwelling;
   bool abandoned; ///< Movements are only driven to rest; see abandon.
   bool awaits;    ///< Who plans elsewhere is at it; see planning.hpp.
-  bool alone;     ///< It comes to rest by itself, whoever plans elsewhere.
+  bool alone;     ///< It is planned here for now, whoever plans elsewhere.
 };
 
 /// Whether the path is in a system that moves, or still goes along with one.

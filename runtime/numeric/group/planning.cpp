@@ -111,6 +111,37 @@ bool receive(GroupMotion &group, GroupPlanning &planning) noexcept {
   return !planning.whole;
 }
 
+/// The axes' task does not plan any more: a law that is being written is written to its end, so
+/// that it ends in rest, and nothing else of that is gone on with.
+void endOwnSession(path::Motion &motion, int32_t steps) noexcept {
+  for (; motion.session == path::Session::Writing && steps > 0; --steps)
+    if (path::think(motion, 1) == 0)
+      return;
+  if (motion.session != path::Session::Writing)
+    motion.session = path::Session::None;
+}
+
+/// Whether what has been planned is not what is wanted now: the motion is to stop, or to go on with
+/// another override.
+bool wantsChange(const path::Motion &motion) noexcept {
+  const bool stops = motion.wish.stop && motion.planned.stop;
+  return !path::isAtRest(motion) && !stops && path::differs(motion.wish, motion.planned);
+}
+
+/// Whether the axes' task plans by itself. What the other task plans meanwhile comes to nothing.
+void decideAlone(GroupMotion &group, const GroupCommand &command) noexcept {
+  const bool stopsNow = command.stop && command.atOnce;
+  if (stopsNow || wantsChange(group.motion)) {
+    group.epoch += group.alone ? 0 : 1;
+    group.alone = true;
+    return;
+  }
+  if (group.motion.wish.stop && group.alone)
+    return;
+  endOwnSession(group.motion, command.steps);
+  group.alone = group.alone && group.motion.session != path::Session::None;
+}
+
 /// All that the axes' task has of the path.
 void writeWhole(const GroupMotion &group, PlanningMail &mail) noexcept {
   path::handOver(group.motion, group.motion.course.first, group.motion.law.first, mail.path);
@@ -140,6 +171,8 @@ void writeJob(const GroupMotion &group, GroupPlanning &planning, const Arm &arm,
   job.clock = planning.clock;
   job.late = planning.late;
   job.command = command;
+  job.ride = group.ride;
+  job.left = group.left;
   job.joints = arm.joints;
   job.more = arm.more;
   for (int32_t k = 0; k < kAxes; ++k)
@@ -166,8 +199,8 @@ void beginAnew(GroupMotion &planner, const PlanningMail &mail) noexcept {
   planner.epoch = job.epoch;
 }
 
-/// The motion is where the job says. What is planned now is taken later: it is where it will be
-/// then.
+/// The motion is where the job says, and what moves the path's system, too. What is planned now is
+/// taken later: the motion is where it will be then.
 void stand(GroupMotion &planner, const PlanningJob &job, double interval) noexcept {
   path::Motion &motion = planner.motion;
   motion.law.first = job.place.piece;
@@ -180,6 +213,8 @@ void stand(GroupMotion &planner, const PlanningJob &job, double interval) noexce
   motion.gate = job.gate;
   planner.first = job.first;
   planner.dwelling = job.dwelling;
+  planner.ride = job.ride;
+  planner.left = job.left;
   planner.planTime = 2.0 * interval + job.late;
   __builtin_memcpy(planner.axes, job.axes, sizeof planner.axes);
 }
@@ -231,19 +266,18 @@ void answerWith(const GroupMotion &planner, PlanningMail &mail) noexcept {
 
 } // namespace
 
-bool follow(GroupMotion &group, GroupPlanning &planning, const GroupCommand &command) noexcept {
+bool follow(GroupMotion &group, GroupPlanning &planning, const Arm &arm,
+            const GroupCommand &command) noexcept {
   prepare(group, command);
-  // What is known of the path may be too short for a softer stop, and no more becomes known.
-  path::Braking &braking = group.motion.wish.braking;
-  braking.accelerationPart = braking.jerkPart = 0.0;
   bool taken = false;
   if (holderOf(planning) == MailHolder::Answered) {
     taken = receive(group, planning);
     give(planning, MailHolder::Axes);
   }
-  group.alone = group.alone || (command.stop && command.atOnce);
+  decideAlone(group, command);
   if (group.alone) {
     group.awaits = false; // it shall not wait for a plan that it will not take
+    makeKnown(group, arm, command.allowance, command.samples); // a soft stop may need more
     (void)path::think(group.motion, command.steps);
   }
   return taken;
@@ -260,7 +294,7 @@ void goOn(GroupMotion &group, GroupPlanning &planning, const Arm &arm,
 
 double post(GroupMotion &group, GroupPlanning &planning, const Arm &arm,
             const kinematics::AnyKinematics &kinematics, const GroupCommand &command) noexcept {
-  if (group.alone)
+  if (group.alone || group.motion.session != path::Session::None)
     return rebase(group);
   const MailHolder holder = holderOf(planning);
   if (holder == MailHolder::Planner || holder == MailHolder::Answered ||

@@ -45,6 +45,7 @@ struct PlanningJob {
   kinematics::AnyKinematics kinematics;
   int32_t joints, more; ///< See Arm.
   AxisLimits limits[kAxes];
+  Ride ride, left; ///< See GroupMotion.
 };
 
 /// What the other task answers.
@@ -86,9 +87,10 @@ struct GroupPlanning {
   double seen;     ///< PlanningJob::clock of the last one. [s]
 };
 
-/// In the axes' task, in place of plan(): takes an answer, and stops what is to stop at once.
+/// In the axes' task, in place of plan(): takes an answer, and plans stops and other overrides.
 /// Whether it has taken one; `planning.mail.job` is what that was planned for.
-bool follow(GroupMotion &group, GroupPlanning &planning, const GroupCommand &command) noexcept;
+bool follow(GroupMotion &group, GroupPlanning &planning, const Arm &arm,
+            const GroupCommand &command) noexcept;
 
 /// After that, in place of goOn(): goes on.
 void goOn(GroupMotion &group, GroupPlanning &planning, const Arm &arm,

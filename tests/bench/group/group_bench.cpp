@@ -1,6 +1,8 @@
 // What axis groups cost: a cycle while blended lines are driven, what a line costs in planning, and
 // many groups at once. The issue asks for 2 us a cycle of a six-axis arm, 50 us for the planning of
-// a blended line, and a fifth of a core for 100 Scaras at 1 ms.
+// a blended line, and a fifth of a core for 100 Scaras at 1 ms. With a planning task: what is left
+// for the axes' task, and what a call of the other one takes.
+#include "runtime/numeric/group/planning.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 #include "tests/property/group_machines.hpp"
 
@@ -33,6 +35,7 @@ public:
   /// `turns`: the tool turns on the lines, as far as the machine can.
   Round(Machine machine, bool turns)
       : machine_(machine), turns_(turns), group_(std::make_unique<GroupMotion>()),
+        planning_(std::make_unique<GroupPlanning>()),
         configuration_(machine_.kinematics.ref().configurationOf(machine_.home)) {
     for (AxisLimits &limits : machine_.limits)
       limits = {300, 3000, 60000, -1e4, 1e4};
@@ -52,11 +55,24 @@ public:
   void go() {
     goOn(*group_, arm(), kCommand);
     (void)rebase(*group_);
-    const Movement *const active = activeOf(*group_);
-    if (active == nullptr || active->id == seen_)
-      return;
-    seen_ = active->id;
-    corners_ += active->corner.length > 0.0 ? 1 : 0;
+    note();
+  }
+
+  /// Likewise, where another task plans; the two parts are one cycle of the axes' task.
+  void follow() {
+    while (group_->next - group_->first < 4)
+      order();
+    (void)stride::group::follow(*group_, *planning_, arm(), kCommand);
+  }
+  void goAndPost() {
+    goOn(*group_, *planning_, arm(), kCommand);
+    (void)post(*group_, *planning_, arm(), machine_.kinematics, kCommand);
+    note();
+  }
+  /// A call of the other task, as its block plans in so many milliseconds.
+  void planNow(int milliseconds) {
+    planAside(*planning_, {1e-3 * milliseconds, kCommand.steps * milliseconds,
+                           kCommand.samples * milliseconds});
   }
 
   /// Those that have been begun, and how many of them by a corner.
@@ -67,6 +83,15 @@ public:
 private:
   Arm arm() const {
     return {machine_.kinematics.ref(), machine_.joints, 0, machine_.limits, configuration_};
+  }
+
+  /// Counts the lines that have been begun.
+  void note() {
+    const Movement *const active = activeOf(*group_);
+    if (active == nullptr || active->id == seen_)
+      return;
+    seen_ = active->id;
+    corners_ += active->corner.length > 0.0 ? 1 : 0;
   }
 
   void order() {
@@ -94,6 +119,7 @@ private:
   Machine machine_;
   bool turns_;
   std::unique_ptr<GroupMotion> group_;
+  std::unique_ptr<GroupPlanning> planning_;
   stride::kinematics::Configuration configuration_;
   Pose last_{};
   Pose middle_{};
@@ -158,6 +184,7 @@ void cyclesOfAGroup(benchmark::State &state) {
   state.counters["corners"] = static_cast<double>(corners);
   state.counters["median_us"] = quantile(cycles, 0.5);
   state.counters["p99_us"] = quantile(cycles, 0.99);
+  state.counters["p999_us"] = quantile(cycles, 0.999);
   state.counters["p9999_us"] = quantile(cycles, 0.9999);
   // What is beyond the cheapest calls, which find nothing to plan.
   const double idle = quantile(thinking, 0.1);
@@ -167,6 +194,53 @@ void cyclesOfAGroup(benchmark::State &state) {
 BENCHMARK(cyclesOfAGroup)
     ->ArgsProduct({{0, 1, 2, 3}, {0, 1}})
     ->ArgNames({"machine", "turns"})
+    ->UseManualTime()
+    ->Iterations(5);
+
+/// The same with a task that plans in every so many cycles; each of its calls is over before the
+/// next cycle.
+void cyclesBesideAPlanner(benchmark::State &state) {
+  const auto every = static_cast<int>(state.range(1));
+  Times cycles(kCycles, HUGE_VAL);
+  Times calls(kCycles / static_cast<size_t>(every), HUGE_VAL);
+  uint64_t lines = 0;
+  uint64_t corners = 0;
+  for (auto _ : state) {
+    Round round(machineOf(state.range(0)), false);
+    double total = 0;
+    for (size_t i = 0; i < kCycles; ++i) {
+      const double time = timeOf([&] {
+        round.follow();
+        round.goAndPost();
+      });
+      cycles[i] = std::min(cycles[i], time);
+      total += time;
+      if (i % static_cast<size_t>(every) != 0)
+        continue;
+      double &call = calls[i / static_cast<size_t>(every)];
+      call = std::min(call, timeOf([&] { round.planNow(every); }));
+    }
+    lines = round.lines();
+    corners = round.corners();
+    if (round.failed())
+      state.SkipWithError("the group has failed");
+    state.SetIterationTime(total * 1e-6);
+  }
+  std::sort(cycles.begin(), cycles.end());
+  std::sort(calls.begin(), calls.end());
+  state.counters["mean_us"] = sumOf(cycles) / kCycles;
+  state.counters["lines"] = static_cast<double>(lines);
+  state.counters["corners"] = static_cast<double>(corners);
+  state.counters["median_us"] = quantile(cycles, 0.5);
+  state.counters["p99_us"] = quantile(cycles, 0.99);
+  state.counters["p999_us"] = quantile(cycles, 0.999);
+  state.counters["p9999_us"] = quantile(cycles, 0.9999);
+  state.counters["call_mean_us"] = sumOf(calls) / static_cast<double>(calls.size());
+  state.counters["call_p999_us"] = quantile(calls, 0.999);
+}
+BENCHMARK(cyclesBesideAPlanner)
+    ->ArgsProduct({{2, 3}, {1, 4}})
+    ->ArgNames({"machine", "every"})
     ->UseManualTime()
     ->Iterations(5);
 

@@ -64,7 +64,7 @@ int main() {
     GroupCommand now{kCycle, 1.0, false, 0.0, 64, 24};
     now.stop = group->alone || (movements % 4 == 1 && n % 50 == 49);
     now.atOnce = now.stop;
-    taken += follow(*group, *planning, now) ? 1 : 0;
+    taken += follow(*group, *planning, arm, now) ? 1 : 0;
     goOn(*group, *planning, arm, now);
     (void)post(*group, *planning, arm, portal, now);
     std::this_thread::yield();
