@@ -53,6 +53,7 @@ NodeConfig busConfig(const bus::GroupSetup &setup, const bus::SetupParameters &g
   const auto lss = static_cast<int64_t>(given.number("lss"));
   node.lss.wanted = lss != kLssNone;
   node.lss.store = lss == kLssStore;
+  node.lss.wait = setup.busParameters.number("lss_wait");
   node.lss.bitRate = lss::bitRateIndex(bitRateOf(setup));
   node.pdoTimeout = static_cast<uint32_t>(given.number("pdo_timeout"));
   return node;

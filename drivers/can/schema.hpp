@@ -72,6 +72,10 @@ inline constexpr std::array kBus = {
         .says("period of the heartbeats of master and drives; whoever misses 1.5 of them knows "
               "that the other one is gone"),
     duration("sdo_timeout").defaultsTo(0.5).says("for each answer to an SDO"),
+    duration("lss_wait")
+        .defaultsTo(2)
+        .says("a node with `lss` that does not answer is looked for again for so long, as it may "
+              "still be booting; `T#1ms`: it is looked for once"),
     duration("time_stamp")
         .says("the master sends the time of day (object 100h, TIME_OF_DAY) so often; default: "
               "never"),

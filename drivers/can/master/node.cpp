@@ -47,15 +47,27 @@ Node::Node(const NodeConfig &config)
     : config_(config), sdo_(config.plan.node, cyclesOf(config.sdoTimeout, config.cycle)),
       supervision_(config.plan.node), startUp_(config), drive_(config.drive, config.plan),
       parameters_(config.parameters), refreshCycles_(cyclesOf(kRefresh, config.cycle)),
-      needed_(neededPdos(config)), wantsNumber_(config.lss.wanted) {}
+      needed_(neededPdos(config)),
+      seekCycles_(config.lss.wait > 0 ? cyclesOf(config.lss.wait, config.cycle) : 0),
+      wantsNumber_(config.lss.wanted) {}
 
-LssOrder Node::lssOrder() const {
+LssOrder Node::seek() {
+  sought_ = std::max(sought_, 1U);
+  lastSeek_ = sought_ > seekCycles_; // who has come in time is found by the last one at the latest
   return {config_.identity, config_.plan.node, config_.lss.bitRate, config_.lss.store};
 }
 
 void Node::numbered(const LssOutcome &outcome, bus::News &news) {
-  wantsNumber_ = false;
+  const bool first = lss_.kind == LssOutcome::Kind::None;
   lss_ = outcome;
+  if (outcome.kind == LssOutcome::Kind::NotFound && !lastSeek_) {
+    if (first)
+      news.say("node ", uint32_t{config_.plan.node},
+               " does not answer by LSS yet: it is looked for again (lss_wait)");
+    return;
+  }
+  wantsNumber_ = false;
+  sought_ = 0;
   if (outcome.kind != LssOutcome::Kind::Assigned)
     return;
   if (outcome.before != lss::kNoNode) // it is still to be reset: who has booted so far is another
@@ -145,6 +157,8 @@ void Node::endReceive(uint32_t syncs, bus::News &news) {
   sdo_.cycle();
   supervision_.cycle();
   boots_ = boots_ && supervision_.bootUps() == 0;
+  if (sought_ > 0 && sought_ <= seekCycles_)
+    ++sought_;
   if (phase_ != Phase::Started)
     return;
   countPdos(syncs);
@@ -325,6 +339,8 @@ void Node::reset() {
   if (phase_ != Phase::Idle) {
     nmt_ = NmtCommand::PreOperational;
     wantsNumber_ = config_.lss.wanted;
+    lss_ = {};
+    sought_ = 0;
   }
   phase_ = Phase::Idle;
   sdo_.clear();

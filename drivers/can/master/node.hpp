@@ -71,8 +71,10 @@ public:
 
   /// It is still to be given its number by LSS …
   [[nodiscard]] bool wantsNumber() const { return wantsNumber_; }
-  [[nodiscard]] LssOrder lssOrder() const;
-  /// … which has ended so.
+  /// … and is looked for now.
+  LssOrder seek();
+  /// … which has ended so. Who does not answer is looked for again, the last time when
+  /// LssConfig::wait is over.
   void numbered(const LssOutcome &outcome, bus::News &news);
   /// Devices with its number have been reset, so that one of them begins with another.
   void resetByLss();
@@ -156,7 +158,10 @@ private:
   SdoUser user_ = SdoUser::None;
   NodeLoss loss_ = NodeLoss::None;
   LssOutcome lss_;
+  uint32_t sought_ = 0; ///< Cycles since LSS has looked for it first, and that one; 0: it has not.
+  uint32_t seekCycles_; ///< So long it is looked for again, and once after that.
   bool wantsNumber_;
+  bool lastSeek_ = false; ///< It is not looked for again.
   bool lssBusy_ = false;
   bool boots_ = false; ///< By LSS it begins anew, and has not booted since.
   bool silent_ = false;
