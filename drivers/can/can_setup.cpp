@@ -69,10 +69,11 @@ NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &
 }
 
 NodeConfig encoderConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
-                         const DrivePlan &plan) {
+                         const EncoderPlan &plan) {
   NodeConfig node = busConfig(setup, given);
   node.kind = NodeConfig::Kind::Encoder;
-  node.plan = plan;
+  node.plan = plan.plan;
+  node.parameters = plan.startup;
   node.encoderModulo = static_cast<uint32_t>(given.number("dwEncoderModulo"));
   return node;
 }
@@ -91,7 +92,7 @@ void addEncoders(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &
       continue;
     source.node = result.master.nodes.size();
     source.signal = Signal::EncoderPosition;
-    result.master.nodes.push_back(encoderConfig(setup, setup.encoders[i].parameters, encoder.plan));
+    result.master.nodes.push_back(encoderConfig(setup, setup.encoders[i].parameters, encoder));
   }
 }
 

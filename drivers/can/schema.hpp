@@ -164,6 +164,10 @@ inline constexpr std::array kEncoder = {
         .defaultsTo(3)
         .onlyWithout("second_of")
         .says("without its PDO until the encoder counts as silent"),
+    list("startup")
+        .onlyWithout("second_of")
+        .says("objects that are written when the encoder starts, after its PDOs, as of a drive: "
+              "`[\"6000h := UINT#4\", \"6001h := UDINT#4096\"]`"),
 };
 
 inline constexpr std::array kRpdo = {
@@ -201,6 +205,10 @@ inline constexpr std::array kDriveTables = {
 
 inline constexpr std::array kEncoderTables = {
     common::ParameterTable{"identity", "the identity of an encoder", kIdentity},
+    common::ParameterTable{"tpdo1", "a TPDO of an encoder", kTpdo},
+    common::ParameterTable{"tpdo2", "a TPDO of an encoder", kTpdo},
+    common::ParameterTable{"tpdo3", "a TPDO of an encoder", kTpdo},
+    common::ParameterTable{"tpdo4", "a TPDO of an encoder", kTpdo},
     common::ParameterTable{"physics", "the physics of a simulated encoder",
                            dummy::physics::kEncoder}};
 
