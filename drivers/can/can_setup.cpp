@@ -53,6 +53,7 @@ NodeConfig busConfig(const bus::GroupSetup &setup, const bus::SetupParameters &g
   const auto lss = static_cast<int64_t>(given.number("lss"));
   node.lss.wanted = lss != kLssNone;
   node.lss.store = lss == kLssStore;
+  node.lss.wait = setup.busParameters.number("lss_wait");
   node.lss.bitRate = lss::bitRateIndex(bitRateOf(setup));
   node.pdoTimeout = static_cast<uint32_t>(given.number("pdo_timeout"));
   return node;
@@ -68,10 +69,11 @@ NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &
 }
 
 NodeConfig encoderConfig(const bus::GroupSetup &setup, const bus::SetupParameters &given,
-                         const DrivePlan &plan) {
+                         const EncoderPlan &plan) {
   NodeConfig node = busConfig(setup, given);
   node.kind = NodeConfig::Kind::Encoder;
-  node.plan = plan;
+  node.plan = plan.plan;
+  node.parameters = plan.startup;
   node.encoderModulo = static_cast<uint32_t>(given.number("dwEncoderModulo"));
   return node;
 }
@@ -90,7 +92,7 @@ void addEncoders(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &
       continue;
     source.node = result.master.nodes.size();
     source.signal = Signal::EncoderPosition;
-    result.master.nodes.push_back(encoderConfig(setup, setup.encoders[i].parameters, encoder.plan));
+    result.master.nodes.push_back(encoderConfig(setup, setup.encoders[i].parameters, encoder));
   }
 }
 

@@ -72,6 +72,10 @@ inline constexpr std::array kBus = {
         .says("period of the heartbeats of master and drives; whoever misses 1.5 of them knows "
               "that the other one is gone"),
     duration("sdo_timeout").defaultsTo(0.5).says("for each answer to an SDO"),
+    duration("lss_wait")
+        .defaultsTo(2)
+        .says("a node with `lss` that does not answer is looked for again for so long, as it may "
+              "still be booting; `T#1ms`: it is looked for once"),
     duration("time_stamp")
         .says("the master sends the time of day (object 100h, TIME_OF_DAY) so often; default: "
               "never"),
@@ -160,6 +164,10 @@ inline constexpr std::array kEncoder = {
         .defaultsTo(3)
         .onlyWithout("second_of")
         .says("without its PDO until the encoder counts as silent"),
+    list("startup")
+        .onlyWithout("second_of")
+        .says("objects that are written when the encoder starts, after its PDOs, as of a drive: "
+              "`[\"6000h := UINT#4\", \"6001h := UDINT#4096\"]`"),
 };
 
 inline constexpr std::array kRpdo = {
@@ -197,6 +205,10 @@ inline constexpr std::array kDriveTables = {
 
 inline constexpr std::array kEncoderTables = {
     common::ParameterTable{"identity", "the identity of an encoder", kIdentity},
+    common::ParameterTable{"tpdo1", "a TPDO of an encoder", kTpdo},
+    common::ParameterTable{"tpdo2", "a TPDO of an encoder", kTpdo},
+    common::ParameterTable{"tpdo3", "a TPDO of an encoder", kTpdo},
+    common::ParameterTable{"tpdo4", "a TPDO of an encoder", kTpdo},
     common::ParameterTable{"physics", "the physics of a simulated encoder",
                            dummy::physics::kEncoder}};
 

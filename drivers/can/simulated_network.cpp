@@ -112,6 +112,7 @@ std::unique_ptr<simulation::SimulatedEncoder406> makeEncoder(const bus::GroupSet
   const uint32_t modulo = number("dwEncoderModulo");
   result.perTurn = modulo != 0 ? modulo : uint32_t{1} << 17U;
   result.turns = modulo != 0 ? 1 : kTurns;
+  result.more = moreObjects(driveSettings(static_cast<uint8_t>(encoder.id), given));
   const double steps = stepsPerUnit(given);
   result.velocity = given.number("physics.own_velocity") * steps;
   const size_t drive = driveNamed(setup, given.text("physics.follows"));

@@ -77,7 +77,7 @@ double Drive402::ratedTorque() const {
   return config_.torqueRated > 0 ? config_.torqueRated : facts_.ratedTorque * kMilli;
 }
 
-void Drive402::read(const Signals &signals, uint16_t emcy) {
+void Drive402::read(const Signals &signals, uint16_t told) {
   statusword_ = static_cast<uint16_t>(signals.get(Signal::Statusword));
   power_.seen(statusword_);
   modes_.seen(static_cast<int8_t>(signals.number(Signal::ModeDisplay)));
@@ -92,7 +92,7 @@ void Drive402::read(const Signals &signals, uint16_t emcy) {
   readActual(signals);
   readInputs(signals);
   readProbes(signals);
-  readErrors(emcy);
+  readErrors(told);
   switch (homing_.step()) {
   case HomingRun::Step::Idle:
     status_.homing = bus::Homing::None;
@@ -159,14 +159,14 @@ void Drive402::readProbes(const Signals &signals) {
   }
 }
 
-void Drive402::readErrors(uint16_t emcy) {
+void Drive402::readErrors(uint16_t told) {
   if (!power_.fault()) {
     errorCode_ = 0;
     askedError_ = false;
   }
   status_.error = power_.fault() || power_.stuck();
   if (power_.fault())
-    status_.errorId = errorCode_ != 0 ? errorCode_ : emcy;
+    status_.errorId = errorCode_ != 0 ? errorCode_ : told;
   else
     status_.errorId = power_.stuck() ? own_error::kPower : uint16_t{0};
 }

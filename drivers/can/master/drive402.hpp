@@ -67,8 +67,9 @@ public:
   /// It is left alone.
   void end();
 
-  /// First in a cycle: takes the actual values over. `emcy`: the error that the node has told.
-  void read(const Signals &signals, uint16_t emcy);
+  /// First in a cycle: takes the actual values over. `told`: the error that the
+  /// node has told or has in its list, for a fault without 603Fh.
+  void read(const Signals &signals, uint16_t told);
   /// Last in a cycle: makes set values of the command.
   void write(Signals &signals);
 
@@ -80,6 +81,10 @@ public:
   [[nodiscard]] const bus::DriveStatus &status() const { return status_; }
   [[nodiscard]] uint8_t controllerModes() const { return controllerModes_; }
   [[nodiscard]] PowerState powerState() const { return power_.state(); }
+  /// It shows a fault (bit 3 of its statusword).
+  [[nodiscard]] bool fault() const { return power_.fault(); }
+  /// 603Fh of the present fault; 0: none, or not known.
+  [[nodiscard]] uint16_t errorCode() const { return errorCode_; }
   /// It does not go into the state that it shall have.
   [[nodiscard]] bool stuck() const { return power_.stuck(); }
   /// True once: velocity and way do not fit together (velocity_scale).
@@ -104,7 +109,7 @@ private:
   void readActual(const Signals &signals);
   void readInputs(const Signals &signals);
   void readProbes(const Signals &signals);
-  void readErrors(uint16_t emcy);
+  void readErrors(uint16_t told);
   void stepHoming();
   void chooseMode();
   void writeTargets(Signals &signals);

@@ -75,6 +75,11 @@ void EmcyRing::received(const Frame &frame) {
   ++count_;
 }
 
+bool EmcyRing::has(uint16_t code) const {
+  const auto *const end = ring_.begin() + std::min<size_t>(count_, kKept);
+  return std::any_of(ring_.begin(), end, [code](const Emcy &one) { return one.code == code; });
+}
+
 std::string_view errorText(uint16_t code) {
   for (const ErrorRow &row : kErrorRows)
     if (code >= row.first && code <= row.last)

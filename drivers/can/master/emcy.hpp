@@ -32,6 +32,8 @@ public:
   [[nodiscard]] uint32_t count() const { return count_; }
   /// The newest is number 0; `age` is less than kKept and count().
   [[nodiscard]] const Emcy &message(size_t age) const { return ring_[(count_ - 1 - age) % kKept]; }
+  /// One of them has that code.
+  [[nodiscard]] bool has(uint16_t code) const;
   /// The error that the node has now; 0: none.
   [[nodiscard]] uint16_t code() const { return code_; }
 

@@ -107,12 +107,15 @@ bool Master::awaitsBootUps() {
 void Master::numberNext() {
   if (awaitsBootUps())
     return;
-  const auto next = std::find_if(nodes_.begin(), nodes_.end(),
-                                 [](const Node &node) { return node.wantsNumber(); });
-  if (next == nodes_.end())
+  for (size_t i = 0; i < nodes_.size(); ++i) { // who is looked for again has its turn
+    const size_t next = (nextLss_ + i) % nodes_.size();
+    if (!nodes_[next].wantsNumber())
+      continue;
+    lssNode_ = next;
+    nextLss_ = (next + 1) % nodes_.size();
+    lss_.begin(nodes_[next].seek());
     return;
-  lssNode_ = static_cast<size_t>(next - nodes_.begin());
-  lss_.begin(next->lssOrder());
+  }
 }
 
 /// A node that had another number begins with its new one when it is reset by the old one; but not

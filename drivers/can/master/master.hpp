@@ -134,7 +134,8 @@ private:
   uint32_t missedInRow_ = 0; ///< Cycles without SYNC.
   size_t nextSdo_ = 0;       ///< Whose turn it is.
   LssAssignment lss_;
-  size_t lssNode_ = kNobody;               ///< Who is being given its number.
+  size_t lssNode_ = kNobody;               ///< Who is being given its number …
+  size_t nextLss_ = 0;                     ///< … and whose turn is next.
   NmtCommand resetNmt_ = NmtCommand::None; ///< To be sent to …
   uint8_t resetNode_ = 0;                  ///< … a number that a node had before.
   uint32_t toBoot_ = 0;                    ///< For so long those are waited for at most. [cycles]

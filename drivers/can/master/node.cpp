@@ -1,6 +1,7 @@
 #include "drivers/can/master/node.hpp"
 
 #include "drivers/can/master/frames.hpp"
+#include "drivers/can/master/sdo_abort.hpp"
 #include "drivers/can/master/texts.hpp"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ uint8_t neededPdos(const NodeConfig &config) {
     const Pdo &pdo = plan.tpdos[i];
     const bool state =
         std::any_of(pdo.mapped().begin(), pdo.mapped().end(), [](const PdoEntry &entry) {
-          return signalOf(entry.object) == Signal::Statusword;
+          const Signal signal = signalOf(entry.object);
+          return signal == Signal::Statusword || signal == Signal::EncoderPosition;
         });
     if (pdo.synchronous() || state || config.kind == NodeConfig::Kind::Io)
       needed = needed | placeBit(i);
@@ -47,15 +49,27 @@ Node::Node(const NodeConfig &config)
     : config_(config), sdo_(config.plan.node, cyclesOf(config.sdoTimeout, config.cycle)),
       supervision_(config.plan.node), startUp_(config), drive_(config.drive, config.plan),
       parameters_(config.parameters), refreshCycles_(cyclesOf(kRefresh, config.cycle)),
-      needed_(neededPdos(config)), wantsNumber_(config.lss.wanted) {}
+      needed_(neededPdos(config)),
+      seekCycles_(config.lss.wait > 0 ? cyclesOf(config.lss.wait, config.cycle) : 0),
+      wantsNumber_(config.lss.wanted) {}
 
-LssOrder Node::lssOrder() const {
+LssOrder Node::seek() {
+  sought_ = std::max(sought_, 1U);
+  lastSeek_ = sought_ > seekCycles_; // who has come in time is found by the last one at the latest
   return {config_.identity, config_.plan.node, config_.lss.bitRate, config_.lss.store};
 }
 
 void Node::numbered(const LssOutcome &outcome, bus::News &news) {
-  wantsNumber_ = false;
+  const bool first = lss_.kind == LssOutcome::Kind::None;
   lss_ = outcome;
+  if (outcome.kind == LssOutcome::Kind::NotFound && !lastSeek_) {
+    if (first)
+      news.say("node ", uint32_t{config_.plan.node},
+               " does not answer by LSS yet: it is looked for again (lss_wait)");
+    return;
+  }
+  wantsNumber_ = false;
+  sought_ = 0;
   if (outcome.kind != LssOutcome::Kind::Assigned)
     return;
   if (outcome.before != lss::kNoNode) // it is still to be reset: who has booted so far is another
@@ -137,6 +151,8 @@ void Node::emcy(const Frame &frame, bus::News &news) {
     news.say("node ", number,
              isCommunicationWarning(one.code) ? " warns: " : " reports: ", errorText(one.code),
              " (EMCY ", HexText(one.code, 4), ")");
+  if (one.code != 0 && phase_ != Phase::Starting) // at the end of its start-up it is asked anyway
+    errors_.ask();
 }
 
 void Node::beginReceive() { arrived_ = {}; }
@@ -145,6 +161,10 @@ void Node::endReceive(uint32_t syncs, bus::News &news) {
   sdo_.cycle();
   supervision_.cycle();
   boots_ = boots_ && supervision_.bootUps() == 0;
+  if (sought_ > 0 && sought_ <= seekCycles_)
+    ++sought_;
+  if (phase_ == Phase::Failed)
+    serveSdo(news);
   if (phase_ != Phase::Started)
     return;
   countPdos(syncs);
@@ -155,8 +175,13 @@ void Node::endReceive(uint32_t syncs, bus::News &news) {
 }
 
 void Node::watchDrive(bus::News &news) {
-  drive_.read(signals_, emcy_.code());
+  drive_.read(signals_, emcy_.code() != 0 ? emcy_.code() : errors_.code());
   drive_.reach(communication());
+  if (drive_.fault() && !fault_)
+    errors_.ask();
+  else if (!drive_.fault())
+    errors_.settle();
+  fault_ = drive_.fault();
   if (drive_.velocityDoubtful())
     news.say("node ", uint32_t{config_.plan.node},
              ": its velocity (606Ch) does not fit its positions (6064h): check velocity_scale");
@@ -290,14 +315,29 @@ bus::StartUp Node::init(uint16_t &progress, bus::Message &message, bus::News &ne
   const bus::StartUp result = startUp_.step(parts, message);
   progress = startUp_.progress();
   if (result == bus::StartUp::Failed)
-    phase_ = Phase::Failed;
+    failed(message);
   else if (result == bus::StartUp::Started)
     started(news);
   return result;
 }
 
+/// An error that the node has may be why.
+void Node::failed(bus::Message &message) {
+  phase_ = Phase::Failed;
+  if (emcy_.code() != 0) {
+    message.append("; it reports: ");
+    message.append(errorText(emcy_.code()));
+    message.append(" (EMCY ");
+    message.append(HexText(emcy_.code(), 4));
+    message.append(")");
+  }
+  if (!sdo_.timedOut())
+    errors_.begin();
+}
+
 void Node::started(bus::News &news) {
   phase_ = Phase::Started;
+  errors_.begin();
   bootUps_ = supervision_.bootUps();
   if (isDrive())
     drive_.begin(facts_, signals_);
@@ -325,22 +365,26 @@ void Node::reset() {
   if (phase_ != Phase::Idle) {
     nmt_ = NmtCommand::PreOperational;
     wantsNumber_ = config_.lss.wanted;
+    lss_ = {};
+    sought_ = 0;
   }
   phase_ = Phase::Idle;
   sdo_.clear();
   supervision_.clear();
   emcy_.clear();
+  errors_.clear();
   drive_.end();
   parameters_.clear();
   user_ = SdoUser::None;
   loss_ = NodeLoss::None;
-  silent_ = saidSilent_ = saidStuck_ = false;
+  fault_ = silent_ = saidSilent_ = saidStuck_ = false;
   missing_ = wrongLength_ = failedSends_ = 0;
   balances_ = {};
   seen_ = 0;
 }
 
-/// The SDO channel in operation: first what the drive needs, then what programs ask.
+/// The SDO channel in operation: first what the drive needs, then its errors, then what programs
+/// ask. Of a node that could not start only its errors.
 void Node::serveSdo(bus::News &news) {
   if (user_ != SdoUser::None) {
     if (sdo_.state() == SdoClient::State::Busy)
@@ -351,27 +395,47 @@ void Node::serveSdo(bus::News &news) {
       parameters_.finished(sdo_);
       if (sdo_.state() == SdoClient::State::Busy) // the second half of a write
         user_ = SdoUser::Parameter;
+    } else if (user == SdoUser::Errors) {
+      errorsAnswered(news);
     } else {
       wishAnswered(news);
     }
     if (user_ != SdoUser::None)
       return;
   }
-  if (sdo_.pending()) // an abort
-    return;
-  const ObjectWish wish = isDrive() && loss_ == NodeLoss::None ? drive_.wish() : ObjectWish{};
+  if (!sdo_.pending()) // an abort
+    serveNext();
+}
+
+void Node::serveNext() {
+  const bool works = phase_ == Phase::Started;
+  const bool there = loss_ == NodeLoss::None;
+  const ObjectWish wish = works && there && isDrive() ? drive_.wish() : ObjectWish{};
+  const ObjectWish error = there ? errors_.wish() : ObjectWish{};
   if (wish.kind != ObjectWish::Kind::None) {
-    beginWish(wish);
-  } else if (parameters_.wants()) {
+    beginWish(wish, SdoUser::Drive);
+  } else if (error.kind != ObjectWish::Kind::None) {
+    beginWish(error, SdoUser::Errors);
+  } else if (works && parameters_.wants()) {
     parameters_.begin(sdo_);
     user_ = sdo_.state() == SdoClient::State::Busy ? SdoUser::Parameter : SdoUser::None;
   }
 }
 
-void Node::wishAnswered(bus::News &news) {
+ObjectAnswer Node::objectAnswer() const {
   ObjectAnswer answer{sdo_.state() == SdoClient::State::Done, 0};
   for (size_t i = 0; answer.done && wish_.kind == ObjectWish::Kind::Read && i < sdo_.size(); ++i)
     answer.value |= uint32_t{wishBytes_[i]} << 8 * i;
+  return answer;
+}
+
+void Node::errorsAnswered(bus::News &news) {
+  const bool missing = !sdo_.timedOut() && isMissing(sdo_.abortCode());
+  errors_.answered(objectAnswer(), missing, config_.plan.node, {emcy_, drive_.errorCode()}, news);
+}
+
+void Node::wishAnswered(bus::News &news) {
+  const ObjectAnswer answer = objectAnswer();
   drive_.answered(wish_, answer);
   const auto code = static_cast<uint16_t>(answer.value);
   if (wish_.object == object::kErrorCode && answer.done && code != 0 && code != emcy_.code())
@@ -379,7 +443,7 @@ void Node::wishAnswered(bus::News &news) {
              " (603Fh = ", HexText(code, 4), ")");
 }
 
-void Node::beginWish(const ObjectWish &wish) {
+void Node::beginWish(const ObjectWish &wish, SdoUser user) {
   wish_ = wish;
   bool begun = false;
   if (wish.kind == ObjectWish::Kind::Read) {
@@ -390,7 +454,7 @@ void Node::beginWish(const ObjectWish &wish) {
     const size_t size = std::clamp<size_t>(wish.size, 1, wishBytes_.size());
     begun = sdo_.download(wish.object, std::span<const uint8_t>(wishBytes_).first(size));
   }
-  user_ = begun ? SdoUser::Drive : SdoUser::None;
+  user_ = begun ? user : SdoUser::None;
 }
 
 } // namespace stride::can

@@ -4,6 +4,7 @@
 
 #include "drivers/can/master/drive402.hpp"
 #include "drivers/can/master/emcy.hpp"
+#include "drivers/can/master/error_field.hpp"
 #include "drivers/can/master/lss_assignment.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/master/parameter_transfer.hpp"
@@ -71,8 +72,10 @@ public:
 
   /// It is still to be given its number by LSS …
   [[nodiscard]] bool wantsNumber() const { return wantsNumber_; }
-  [[nodiscard]] LssOrder lssOrder() const;
-  /// … which has ended so.
+  /// … and is looked for now.
+  LssOrder seek();
+  /// … which has ended so. Who does not answer is looked for again, the last time when
+  /// LssConfig::wait is over.
   void numbered(const LssOutcome &outcome, bus::News &news);
   /// Devices with its number have been reset, so that one of them begins with another.
   void resetByLss();
@@ -106,7 +109,7 @@ public:
 
 private:
   enum class Phase : uint8_t { Idle, Starting, Started, Failed };
-  enum class SdoUser : uint8_t { None, Drive, Parameter };
+  enum class SdoUser : uint8_t { None, Drive, Errors, Parameter };
 
   struct Rpdo {
     Frame frame;
@@ -126,8 +129,12 @@ private:
   void started(bus::News &news);
   void serveSdo(bus::News &news);
   void wishAnswered(bus::News &news);
-  void beginWish(const ObjectWish &wish);
+  [[nodiscard]] ObjectAnswer objectAnswer() const;
+  void errorsAnswered(bus::News &news);
+  void serveNext();
+  void beginWish(const ObjectWish &wish, SdoUser user);
   void sayLacks(bus::News &news) const;
+  void failed(bus::Message &message);
 
   NodeConfig config_;
   Signals signals_;
@@ -142,7 +149,8 @@ private:
   std::array<uint8_t, DrivePlan::kMostPdos> arrived_{}; ///< TPDOs of this cycle, by place …
   std::array<bool, DrivePlan::kMostPdos> atSync_{};     ///< … and since the last SYNC.
   std::array<PdoBalance, DrivePlan::kMostPdos> balances_{};
-  ObjectWish wish_; ///< The drive's, under way.
+  ErrorField errors_;
+  ObjectWish wish_; ///< Under way.
   std::array<uint8_t, 4> wishBytes_{};
   uint32_t refreshCycles_;
   uint32_t missing_ = 0;     ///< Cycles without a synchronous TPDO.
@@ -156,9 +164,13 @@ private:
   SdoUser user_ = SdoUser::None;
   NodeLoss loss_ = NodeLoss::None;
   LssOutcome lss_;
+  uint32_t sought_ = 0; ///< Cycles since LSS has looked for it first, and that one; 0: it has not.
+  uint32_t seekCycles_; ///< So long it is looked for again, and once after that.
   bool wantsNumber_;
+  bool lastSeek_ = false; ///< It is not looked for again.
   bool lssBusy_ = false;
   bool boots_ = false; ///< By LSS it begins anew, and has not booted since.
+  bool fault_ = false; ///< Its drive shows one.
   bool silent_ = false;
   bool late_ = false;
   bool saidSilent_ = false;

@@ -19,6 +19,9 @@ struct LssConfig {
   bool wanted = false;
   bool store = false;                ///< The node keeps it when it is switched off …
   uint8_t bitRate = lss::kNoBitRate; ///< … with this bit rate, by the table of the standard.
+  /// So long a node that does not answer is looked for again, since it was looked for first: it may
+  /// still be booting; once more when that time is over. 0: it is looked for once. [s]
+  double wait = 0;
 };
 
 /// Where the bytes of an I/O device come from and go to.

@@ -165,6 +165,32 @@ std::string encoderFault(uint32_t id, const bus::GroupSetup &setup, bool hasSync
   return {};
 }
 
+/// PDOs of its own, and what it is given at start-up.
+void takeEncoderSettings(const bus::EncoderSetup &encoder, EncoderPlan &plan) {
+  const auto node = static_cast<uint8_t>(encoder.id);
+  DriveSettings settings = driveSettings(node, encoder.parameters);
+  if (!settings.errors.empty()) {
+    plan.fault = settings.errors.front();
+    return;
+  }
+  plan.plan = planEncoder(node, settings.tpdos);
+  plan.startup = std::move(settings.startup);
+  if (!plan.plan.carries(Signal::EncoderPosition)) {
+    plan.fault = "none of its own TPDOs has the position (6004h)";
+    plan.plan = {};
+  }
+}
+
+/// The PDOs of a drive's second encoder are the drive's.
+std::string secondEncoderFault(const bus::EncoderSetup &encoder) {
+  for (size_t number = 1; number <= DrivePlan::kMostPdos; ++number)
+    if (const std::string table = "tpdo" + std::to_string(number);
+        encoder.parameters.given(table + ".map"))
+      return "it is the second encoder of a drive, which has its PDOs: `" + table +
+             "` belongs into the section of the drive";
+  return {};
+}
+
 std::vector<EncoderPlan> planEncoders(const bus::GroupSetup &setup, SyncProducer sync) {
   std::vector<EncoderPlan> encoders;
   for (const bus::EncoderSetup &encoder : setup.encoders) {
@@ -173,13 +199,15 @@ std::vector<EncoderPlan> planEncoders(const bus::GroupSetup &setup, SyncProducer
       one.drive = driveNamed(setup, drive);
       if (one.drive == setup.drives.size())
         one.fault = "its drive is not in this axis group";
+      else
+        one.fault = secondEncoderFault(encoder);
       continue;
     }
     one.fault = encoderFault(encoder.id, setup, sync == SyncProducer::Device);
     if (one.fault.empty())
       one.fault = lssFault(encoder.parameters, setup);
     if (one.fault.empty())
-      one.plan = planEncoder(static_cast<uint8_t>(encoder.id));
+      takeEncoderSettings(encoder, one);
   }
   return encoders;
 }

@@ -28,6 +28,7 @@ struct EncoderPlan {
   static constexpr size_t kNode = static_cast<size_t>(-1);
 
   DrivePlan plan;
+  std::vector<SdoWrite> startup;
   size_t drive = kNode; ///< Whose second encoder it is.
   std::string fault;    ///< Why it cannot be read; empty: nothing.
 };

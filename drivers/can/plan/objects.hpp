@@ -19,6 +19,8 @@ struct Object {
 namespace object {
 
 inline constexpr Object kDeviceType = {0x1000, 0};
+inline constexpr Object kErrorRegister = {0x1001, 0};
+inline constexpr uint16_t kErrorField = 0x1003; ///< How many, and from subindex 1 the newest first.
 inline constexpr uint16_t kSyncId = 0x1005;
 inline constexpr uint16_t kSyncPeriod = 0x1006;
 inline constexpr uint16_t kGuardTime = 0x100C;

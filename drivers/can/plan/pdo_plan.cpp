@@ -387,10 +387,14 @@ PlanResult planDrive(const DriveWish &wish) {
   return result;
 }
 
-DrivePlan planEncoder(uint8_t node) {
+DrivePlan planEncoder(uint8_t node, std::span<const Pdo> own) {
   constexpr uint8_t kWithSync = 2; // the first one is sent by a timer of the encoder
   DrivePlan plan;
   plan.node = node;
+  if (!own.empty()) {
+    takeOwn(own, plan.tpdos, plan.tpdoCount);
+    return plan;
+  }
   Pdo &pdo = plan.tpdos[plan.tpdoCount++];
   pdo.number = kWithSync;
   pdo.cobId = static_cast<uint16_t>(kTpdoBase + (kWithSync - 1) * kNextPdo + node);

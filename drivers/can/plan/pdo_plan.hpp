@@ -123,8 +123,9 @@ struct PlanResult {
 /// The default plan, or the drive's own PDOs, with the COB-IDs of the predefined connection set.
 PlanResult planDrive(const DriveWish &wish);
 
-/// The plan of an encoder: its second TPDO, which has the position at SYNC. [CiA 406]
-DrivePlan planEncoder(uint8_t node);
+/// The plan of an encoder: its own TPDOs, or its second one, which has the position at SYNC.
+/// [CiA 406]
+DrivePlan planEncoder(uint8_t node, std::span<const Pdo> own = {});
 
 /// A value that is written into the drive.
 struct SdoWrite {

@@ -80,6 +80,17 @@ void addStartUp(const Widths &widths, const std::string &drive, uint8_t node,
   }
 }
 
+/// Its start-up values included, and its concise DCF.
+void addEncoder(const Widths &widths, const std::string &name, const EncoderPlan &encoder,
+                bus::GroupPlanText &result) {
+  addRows(widths, name, encoder.plan, result.text);
+  addStartUp(widths, name, encoder.plan.node, encoder.startup, result.text);
+  std::vector<SdoWrite> writes = pdoWrites(encoder.plan);
+  writes.insert(writes.end(), encoder.startup.begin(), encoder.startup.end());
+  const std::vector<uint8_t> dcf = conciseDcf(writes);
+  result.files.push_back({name + ".cdcf", std::string(dcf.begin(), dcf.end())});
+}
+
 /// Their start-up values included, and a concise DCF for each.
 void addIos(const bus::GroupSetup &setup, const GroupPlan &plan, const Widths &widths,
             bus::GroupPlanText &result) {
@@ -149,7 +160,7 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
     if (!encoder.fault.empty())
       text += "  " + wide(name, widths.drive) + encoder.fault + "\n";
     else if (encoder.drive == EncoderPlan::kNode)
-      addRows(widths, name, encoder.plan, text);
+      addEncoder(widths, name, encoder, result);
   }
   const uint64_t room = uint64_t{plan.bitRate} * plan.cycle / 1000;
   text += "  " + std::to_string(plan.load.bits) + " of " + std::to_string(room) +

@@ -27,7 +27,8 @@ DeviceRows encoderRows(const Encoder406Setup &setup) {
   const auto most = static_cast<int64_t>(0xFFFFFFFF);
   DeviceRows device;
   device.deviceType = kMultiTurn;
-  device.objects = {
+  device.objects = setup.more; // of several for the same object the last one counts
+  const std::vector<ObjectRow> profile = {
       {.index = kOperating, .type = Type::Unsigned16, .low = 0, .high = 5},
       {.index = kPerRevolution, .value = setup.perTurn, .low = 1, .high = setup.perTurn},
       {.index = kRange, .value = std::min<uint64_t>(range, 0xFFFFFFFF), .low = 1, .high = most},
@@ -51,9 +52,12 @@ DeviceRows encoderRows(const Encoder406Setup &setup) {
        .type = Type::Unsigned16,
        .access = Access::ReadOnly,
        .mapping = kInTransmit}};
-  // The first one by events and its timer, the second one with SYNC.
+  device.objects.insert(device.objects.end(), profile.begin(), profile.end());
+  // The first one by events and its timer, the second one with SYNC; two for whatever is wanted.
   device.transmit = {{.cobId = 0x40000180, .type = 254, .map = {0x60040020}},
-                     {.cobId = 0x40000280, .type = 1, .map = {0x60040020}}};
+                     {.cobId = 0x40000280, .type = 1, .map = {0x60040020}},
+                     {.cobId = 0xC0000380},
+                     {.cobId = 0xC0000480}};
   return device;
 }
 

@@ -11,10 +11,11 @@ namespace stride::can::simulation {
 
 struct Encoder406Setup {
   NodeSetup node{};
-  uint32_t perTurn = 4096;      ///< Steps of a turn, as the disc has them.
-  uint16_t turns = 4096;        ///< That it tells apart.
-  double velocity = 0;          ///< At which it turns by itself. [steps/s]
-  double stepsPerIncrement = 1; ///< Of a drive that it sits on.
+  uint32_t perTurn = 4096;       ///< Steps of a turn, as the disc has them.
+  uint16_t turns = 4096;         ///< That it tells apart.
+  double velocity = 0;           ///< At which it turns by itself. [steps/s]
+  double stepsPerIncrement = 1;  ///< Of a drive that it sits on.
+  std::vector<ObjectRow> more{}; ///< Objects of its maker; those of the profile stay as they are.
 };
 
 /// It turns by itself, or sits on a drive's mechanics: that drive has to be attached to the bus

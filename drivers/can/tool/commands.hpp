@@ -17,7 +17,7 @@ struct ScanOptions {
   int last = 127;
   int timeoutMs = 20;
 };
-/// Who is at the bus: 1000h and 1018h of every node that answers.
+/// Who is at the bus: 1000h and 1018h of every node that answers, and its errors.
 int scan(const ScanOptions &options);
 
 struct SdoOptions {

@@ -3,6 +3,7 @@
 #include "drivers/can/socket/socket_can_port.hpp"
 #include "drivers/can/tool/bus_client.hpp"
 #include "drivers/can/tool/commands.hpp"
+#include "drivers/can/tool/node_errors.hpp"
 #include "drivers/can/tool/tool_support.hpp"
 
 #include <fmt/format.h>
@@ -48,6 +49,9 @@ int scan(const ScanOptions &options) {
       if (const Transfer part = client.read(id, {object::kIdentity, sub}, timeout); part.done)
         line += fmt::format("  {} {:08X}h", names[sub - 1], numberOf(part.bytes));
     fmt::print("{}\n", line);
+    for (const std::string &error :
+         errorLines([&](Object object) { return client.read(id, object, timeout); }))
+      fmt::print("       {}\n", error);
   }
   if (found == 0)
     fmt::print(stderr, "note: no node has answered\n");

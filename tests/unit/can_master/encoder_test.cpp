@@ -116,6 +116,50 @@ TEST_F(EncoderOf, ItsMappingMayBeFixed) {
   EXPECT_EQ(driver->encoder(0), 5U);
 }
 
+TEST_F(EncoderOf, PdosOfItsOwn) {
+  encoder->add({"tpdo3.map", "6030h:1:16\n6004h", 0});
+  encoder->add({"startup", "6000h := UINT#4\n2100h:3 := DINT#-2", 0});
+  addNode(0).pdosInOperation = {"394#345678563412"};
+  startAll();
+  cycles(100);
+  EXPECT_TRUE(works());
+  EXPECT_EQ(driver->encoder(0), 0x12345678U);
+  const std::vector<std::string> &w = nodes[1].written;
+  for (const char *one :
+       {"1802:1/4=80000394", "1A02:1/4=60300110", "1A02:2/4=60040020", "1A02:0/1=2", "1802:2/1=1",
+        "1802:1/4=394", "1801:1/4=80000294", "6000:0/2=4", "2100:3/4=FFFFFFFE"})
+    EXPECT_THAT(w, ::testing::Contains(one));
+  EXPECT_THAT(w, ::testing::Not(::testing::Contains("1801:1/4=294"))) << "its usual one is off";
+  nodes[1].atSync.clear();
+  cycles(3);
+  EXPECT_FALSE(works());
+}
+
+/// Its position is not known before it has come.
+TEST_F(EncoderOf, APositionByEvent) {
+  encoder->add({"tpdo1.map", "6004h", 0});
+  encoder->add({"tpdo1.when", "", 1});
+  encoder->add({"tpdo1.event", "", 0.25});
+  encoder->add({"tpdo1.inhibit", "", 0.002});
+  addNode(0);
+  make();
+  commands.resize(1);
+  started.assign(1, false);
+  cycles(300);
+  EXPECT_FALSE(works());
+  for (const char *one : {"1800:2/1=FF", "1800:3/2=14", "1800:5/2=FA", "1800:1/4=194"})
+    EXPECT_THAT(nodes[1].written, ::testing::Contains(one));
+  port->give("194#01020304");
+  cycles(10);
+  EXPECT_TRUE(works());
+  EXPECT_EQ(driver->encoder(0), 0x04030201U);
+  cycles(1000);
+  EXPECT_TRUE(works()) << "it may stand";
+  heartbeats = false;
+  cycles(200);
+  EXPECT_FALSE(works());
+}
+
 TEST_F(EncoderOf, ADriveThatHasTwo) {
   encoder->add({"second_of", "x", 0});
   // 6064h and 60E4h:1 fill the first TPDO; the statusword comes by event.
@@ -128,6 +172,34 @@ TEST_F(EncoderOf, ADriveThatHasTwo) {
   nodes[0].atSync.clear();
   cycles(5);
   EXPECT_FALSE(works());
+}
+
+TEST(EncoderPlans, OfTheirOwnMustHaveThePosition) {
+  bus::GroupSetup setup(kSchema, 0.001);
+  setup.addDrive("X", 5);
+  const auto fault = [&](const char *drive, const char *map, const char *startup = "") {
+    setup.encoders.clear();
+    bus::SetupParameters &encoder = setup.addEncoder("E", 8).parameters;
+    encoder.add({"tpdo2.map", map, 0});
+    if (*drive != '\0')
+      encoder.add({"second_of", drive, 0});
+    if (*startup != '\0')
+      encoder.add({"startup", startup, 0});
+    return planGroup(setup).encoders[0].fault;
+  };
+  EXPECT_EQ(fault("", "6004h"), "");
+  EXPECT_EQ(fault("", "6004h\n2100h:0:32"), "") << "64 bits";
+  EXPECT_EQ(fault("", "6004h\n2100h:0:40"),
+            "`tpdo2`: it has 72 bits, and 64 is what a PDO has room for");
+  EXPECT_EQ(fault("", "6030h:1:16"), "none of its own TPDOs has the position (6004h)");
+  EXPECT_EQ(fault("", "6004h:0:16"), "`6004h:0:16` in `tpdo2`: this object has 32 bits");
+  EXPECT_EQ(fault("", "6004h\n6503h"), "`6503h` in `tpdo2`: the length of this object is not known "
+                                       "here: write its bits, as in 2031h:2:16");
+  EXPECT_EQ(fault("", "6004h", "1801h:1 := UDINT#5"),
+            "`1801h:1 := UDINT#5` in `startup`: what is written there is the matter of the tables "
+            "`tpdo1` … `tpdo4`");
+  EXPECT_EQ(fault("X", "6004h"), "it is the second encoder of a drive, which has its PDOs: `tpdo2` "
+                                 "belongs into the section of the drive");
 }
 
 TEST(EncoderPlans, HaveNodesOfTheirOwn) {

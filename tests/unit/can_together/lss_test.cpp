@@ -238,6 +238,25 @@ TEST_F(LssTogether, ANumberThatIsSetOutlivesTheResetOfTheNode) {
   EXPECT_EQ(scene.network->drive(0).id(), 5);
 }
 
+/// Its supply comes later than the controller's.
+TEST_F(LssTogether, ADeviceThatComesLate) {
+  for (const auto &[late, found] : {std::pair{1700, true}, {1990, true}, {3200, false}}) {
+    scene.setup.drives.clear();
+    scene.failed.clear();
+    add(4, 1001, 1);
+    add(5, 1002, 0); // without anybody on it, the bus would be off
+    scene.make();
+    scene.network->drive(0).setSilent(true);
+    for (int i = 0; i < late; ++i)
+      scene.cycle();
+    scene.network->drive(0).setSilent(false);
+    for (int i = 0; i < 6000 && scene.failed.empty() && !scene.allStarted(); ++i)
+      scene.cycle();
+    EXPECT_EQ(bool{scene.started[0]}, found) << late;
+    EXPECT_EQ(scene.network->drive(0).id(), found ? 4 : simulation::kUnconfigured);
+  }
+}
+
 TEST_F(LssTogether, ADeviceThatIsAnotherOneIsNotFound) {
   add(4, 1001, 1);
   scene.make();
@@ -250,7 +269,7 @@ TEST_F(LssTogether, ADeviceThatIsAnotherOneIsNotFound) {
                     {});
   scene.network->bus().attach(other);
   scene.network->drive(0).setSilent(true);
-  for (int i = 0; i < 5000 && scene.failed.empty(); ++i)
+  for (int i = 0; i < 6000 && scene.failed.empty(); ++i)
     scene.cycle();
   EXPECT_EQ(scene.failed, "node 4 does not answer: is it on, with this number and bit rate? No "
                           "node with its identity answers by LSS, either");
