@@ -30,7 +30,9 @@ std::string modifiersOf(const Node &interface) {
 }
 
 std::string inheritanceOf(const Node &interface) {
-  const Node inheritance = extra(interface, "Inheritance");
+  Node inheritance = extra(interface, "Inheritance");
+  if (!inheritance) // of an INTERFACE, old versions of CODESYS write it without addData
+    inheritance = child(interface, "Inheritance");
   std::string text;
   for (const std::string_view kind : {"Extends", "Implements"}) {
     std::string names;
@@ -230,7 +232,7 @@ std::string_view closingKeyword(std::string_view declaration, std::string_view k
 
 void readPou(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "POU");
-  if (name.empty() || isInSource(node))
+  if (name.empty() || isInSource(node) || context.isNotBuilt(node, name))
     return;
   std::string_view keyword = pouKeywordOf(attribute(node, "pouType"));
   if (keyword.empty()) {
@@ -241,8 +243,8 @@ void readPou(Context &context, const Node &node) {
   }
   context.leaveOutUnknown(node, {"interface", "body", "actions", "transitions", "documentation",
                                  "InterfaceAsPlainText"});
-  context.leaveOutUnknownExtras(node,
-                                {"Method", "Property", "InterfaceAsPlainText", "SFCSettings"});
+  context.leaveOutUnknownExtras(
+      node, {"Method", "Property", "InterfaceAsPlainText", "SFCSettings", "BuildProperties"});
   reportFlags(context, node, name);
   const std::string declaration = declarationOf(context, node, keyword, name, name);
   std::string members;
@@ -255,12 +257,12 @@ void readPou(Context &context, const Node &node) {
 
 void readInterface(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "interface");
-  if (name.empty() || isInSource(node))
+  if (name.empty() || isInSource(node) || context.isNotBuilt(node, name))
     return;
-  context.leaveOutUnknown(
-      node, {"Methods", "Properties", "documentation", "InterfaceAsPlainText", "interface"});
-  context.leaveOutUnknownExtras(
-      node, {"Inheritance", "Attributes", "InterfaceAsPlainText", "Method", "Property"});
+  context.leaveOutUnknown(node, {"Methods", "Properties", "Inheritance", "documentation",
+                                 "InterfaceAsPlainText", "interface"});
+  context.leaveOutUnknownExtras(node, {"Inheritance", "Attributes", "InterfaceAsPlainText",
+                                       "Method", "Property", "BuildProperties"});
   std::string text = plainDeclaration(node);
   if (text.empty())
     text = fmt::format("{}{}INTERFACE {}{}\n", documentationLines(node), attributeLines(node), name,
