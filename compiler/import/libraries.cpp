@@ -1,8 +1,8 @@
 #include "compiler/import/libraries.hpp"
 
 #include "compiler/import/exp_lines.hpp"
-#include "compiler/import/st_words.hpp"
 #include "compiler/source/identifier.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <set>

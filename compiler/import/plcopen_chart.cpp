@@ -3,7 +3,7 @@
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/plcopen_conditions.hpp"
 #include "compiler/import/plcopen_context.hpp"
-#include "compiler/import/st_words.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -4,7 +4,7 @@
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/networks/plcopen_networks.hpp"
 #include "compiler/import/networks/print.hpp"
-#include "compiler/import/st_words.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <utility>

@@ -1,8 +1,9 @@
 #include "compiler/import/plcopen_context.hpp"
 
 #include "compiler/import/exp_lines.hpp"
-#include "compiler/import/st_scan.hpp"
 
+#include "compiler/import/texts.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -183,11 +184,7 @@ void Context::add(ObjectKind kind, const Node &node, std::string name, std::stri
 
 std::string Context::addHelperType(const Node &node, const std::string &owner,
                                    const std::string &text) {
-  std::string name = owner;
-  for (char &c : name)
-    if (!isName(std::string("_") + c))
-      c = '_';
-  name += fmt::format("_type{}", ++helperTypes_);
+  const std::string name = fmt::format("{}_type{}", asIdentifier(owner), ++helperTypes_);
   add(ObjectKind::Type, node, name, fmt::format("TYPE {} :\n{}\nEND_TYPE\n", name, text));
   changed(node, owner, fmt::format("its type is declared in line; it became {}", name));
   return name;

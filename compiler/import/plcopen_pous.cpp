@@ -2,6 +2,7 @@
 // interfaces).
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/plcopen_context.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <array>
 
@@ -200,28 +201,9 @@ std::string_view pouKeywordOf(std::string_view type) {
   return {};
 }
 
-/// The word that the declaration begins with, after comments and pragmas: PROGRAM, CLASS …
-std::string_view firstKeyword(std::string_view declaration) {
-  for (size_t at = 0; at < declaration.size();) {
-    const std::string_view rest = declaration.substr(at);
-    size_t end = 1;
-    if (rest.starts_with("//"))
-      end = rest.find('\n');
-    else if (rest.starts_with("(*"))
-      end = rest.find("*)");
-    else if (rest.starts_with("{"))
-      end = rest.find('}');
-    else if (const std::string_view word = firstWord(rest.substr(0, rest.find('\n')));
-             !word.empty() && word.front() == rest.front())
-      return word;
-    at = end == std::string_view::npos ? declaration.size() : at + end;
-  }
-  return {};
-}
-
 /// What ends the declaration: the file's word for the kind says less than the author's text.
 std::string_view closingKeyword(std::string_view declaration, std::string_view keyword) {
-  const std::string_view first = firstKeyword(declaration);
+  const std::string first = firstKeyword(declaration);
   for (const PouKind &each : kPouKinds)
     if (sameName(each.keyword, first))
       return each.keyword;
