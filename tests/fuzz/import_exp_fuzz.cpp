@@ -66,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   import::readExp("a.EXP", text.text, model);
   import::readExp("b.EXP", text.text, model); // everything is there twice
   for (const import::Object &object : model.objects)
-    for (const StWord &word : wordsOf(object.text))
+    for (const stc::StWord &word : stc::wordsOf(object.text))
       require(word.begin < word.end && word.end <= object.text.size());
   import::FinishSettings settings;
   settings.library = (size & 1U) != 0;
