@@ -92,16 +92,21 @@ private:
     for (const Node &each : all)
       if (localName(each) == "macroStep")
         fail(each, "macro steps are not imported");
+    for (const Node &each : all)
+      if (localName(each) == "actionBlock")
+        for (const std::string &id : inputsOf(each))
+          blocks_[id].push_back(each);
     readTargets(all);
+    readTransitions(all);
     std::string result;
     size_t initial = std::string::npos; // where the actions of the first initial step end
     for (const Node &each : all) {
       const std::string_view kind = localName(each);
       if (kind == "step") {
-        const std::string head = step(each, all);
+        const std::string head = step(each);
         if (isTrue(each, "initialStep") && initial == std::string::npos)
           initial = result.size() + head.size();
-        result += head + "END_STEP\n" + transitionsOf(attribute(each, "name"), all);
+        result += head + "END_STEP\n" + transitionsOf(attribute(each, "name"));
       } else if (kind == "comment") {
         result += commentLines(linesOf(child(each, "content")), {}, "//");
       }
@@ -179,20 +184,15 @@ private:
   }
 
   /// Without END_STEP.
-  std::string step(const Node &node, const std::vector<Node> &all) {
+  std::string step(const Node &node) {
     const std::string id = attribute(node, "localId");
     const std::string name = attribute(node, "name");
     std::string text = documentationLines(node);
     reportProperties(node, name);
     text += fmt::format("{} {}:\n", isTrue(node, "initialStep") ? "INITIAL_STEP" : "STEP", name);
-    for (const Node &each : all) {
-      if (localName(each) != "actionBlock")
-        continue;
-      const std::vector<std::string> inputs = inputsOf(each);
-      if (std::find(inputs.begin(), inputs.end(), id) != inputs.end())
-        for (const Node &action : children(each, "action"))
-          text += "  " + actionText(action, name) + "\n";
-    }
+    for (const Node &each : blocks_[id])
+      for (const Node &action : children(each, "action"))
+        text += "  " + actionText(action, name) + "\n";
     return text;
   }
 
@@ -230,26 +230,25 @@ private:
                        time.empty() ? "" : ", ", time);
   }
 
+  void readTransitions(const std::vector<Node> &all) {
+    for (const Node &each : all) {
+      if (localName(each) != "transition")
+        continue;
+      std::vector<std::string> sources = sourcesOf(each);
+      if (sources.empty())
+        fail(each, "a transition comes from no step");
+      else
+        transitions_[sources.front()].push_back({each, sources, horizontal(each)});
+    }
+    for (auto &[name, own] : transitions_)
+      std::ranges::stable_sort(own, {}, &Transition::horizontal);
+  }
+
   /// The transitions whose first step it is: by priority, then from left to right.
-  std::string transitionsOf(const std::string &name, const std::vector<Node> &all) {
-    if (transitions_.empty())
-      for (const Node &each : all)
-        if (localName(each) == "transition") {
-          std::vector<std::string> sources = sourcesOf(each);
-          if (sources.empty())
-            fail(each, "a transition comes from no step");
-          transitions_.push_back({each, std::move(sources), horizontal(each)});
-        }
-    std::vector<const Transition *> own;
-    for (const Transition &each : transitions_)
-      if (!each.sources.empty() && each.sources.front() == name)
-        own.push_back(&each);
-    std::stable_sort(own.begin(), own.end(), [](const Transition *a, const Transition *b) {
-      return a->horizontal < b->horizontal;
-    });
+  std::string transitionsOf(const std::string &name) {
     std::string text;
-    for (const Transition *each : own)
-      text += transitionText(*each);
+    for (const Transition &each : transitions_[name])
+      text += transitionText(each);
     return text;
   }
 
@@ -399,8 +398,9 @@ private:
   DrawnConditions drawn_;
   std::optional<Problem> problem_;
   ChartElements elements_;
-  std::map<std::string, std::vector<std::string>> targets_; ///< of transitions
-  std::vector<Transition> transitions_;
+  std::map<std::string, std::vector<std::string>> targets_;    ///< of transitions
+  std::map<std::string, std::vector<Transition>> transitions_; ///< by their first step
+  std::map<std::string, std::vector<Node>> blocks_; ///< of actions, by the step's localId
   size_t ownActions_ = 0;
   size_t visited_ = 0; ///< elements of the condition that is read
 };
