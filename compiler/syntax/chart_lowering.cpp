@@ -110,8 +110,8 @@ bool ChartLowering::isFree(const std::string &what) {
   if (taken_.empty()) {
     for (const VarDecl *one : declared_)
       taken_.insert(lowerCase(one->name.text));
-    for (const Name &one : target_.members)
-      taken_.insert(lowerCase(one.text));
+    for (const std::string_view one : target_.members)
+      taken_.insert(lowerCase(one));
     for (const ChartStep &step : chart_.steps) {
       taken_.insert(lowerCase(step.name.text));
       for (const ChartAction &action : step.actions)
