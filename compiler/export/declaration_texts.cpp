@@ -1,6 +1,7 @@
 #include "compiler/export/declaration_texts.hpp"
 
 #include "compiler/source/identifier.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "compiler/syntax/characters.hpp"
 #include "compiler/syntax/instruction_list.hpp"
 
@@ -23,33 +24,15 @@ struct Piece {
   size_t end = 0;
 };
 
-/// After the quote that closes the one at `at`.
-size_t endOfQuoted(std::string_view text, size_t at) {
-  const char quote = text[at];
-  for (++at; at < text.size() && text[at] != quote && text[at] != '\n'; ++at)
-    if (text[at] == '$')
-      ++at;
-  return std::min(at + 1, text.size());
-}
-
-size_t endOfPragma(std::string_view text, size_t at) {
-  for (++at; at < text.size() && text[at] != '}'; ++at)
-    if (text[at] == '\'')
-      at = endOfQuoted(text, at) - 1;
-  return std::min(at + 1, text.size());
-}
-
 Piece pieceAt(std::string_view text, size_t at) {
-  const std::string_view two = text.substr(at, 2);
-  const char c = text[at];
-  if (two == "//" || two == "(*" || two == "/*")
-    return {Piece::Kind::Comment, at, commentEnd(text, at)};
-  if (c == '{')
-    return {Piece::Kind::Pragma, at, endOfPragma(text, at)};
-  if (c == '\'' || c == '"')
-    return {Piece::Kind::Other, at, endOfQuoted(text, at)};
+  if (const size_t end = commentEnd(text, at); end != at)
+    return {Piece::Kind::Comment, at, end};
+  if (const size_t end = afterPragma(text, at); end != at)
+    return {Piece::Kind::Pragma, at, end};
+  if (const size_t end = afterString(text, at); end != at)
+    return {Piece::Kind::Other, at, end};
   size_t end = at;
-  if (isLetter(c)) {
+  if (isLetter(text[at])) {
     while (end < text.size() && isWordChar(text[end]))
       ++end;
     return {Piece::Kind::Word, at, end};

@@ -26,7 +26,8 @@ public:
   // ---- plcopen_writer.cpp
 
   /// A new `data` of the element's addData, which is made when it is not there.
-  static Node addData(Node parent, std::string_view space, std::string_view name);
+  static Node addData(Node parent, std::string_view space, std::string_view name,
+                      const char *handleUnknown = "implementation");
   /// Text in `<xhtml>`, as the format wants it; characters that XML does not have become blanks.
   static void addXhtml(Node parent, std::string_view text);
   static void addDocumentation(Node parent, std::string_view text);
@@ -42,25 +43,31 @@ public:
   void initialValue(Node parent, const ast::Expr *value) const;
   void variable(Node list, const ast::VarDecl &variable) const;
   /// A TYPE; null: it is a union, which the format does not have (CODESYS: in addData).
-  void dataType(Node dataTypes, Node project, const ast::Decl &decl, const DeclarationText &text,
+  Node dataType(Node dataTypes, Node project, const ast::Decl &decl, const DeclarationText &text,
                 bool whole) const;
 
   // ---- plcopen_pous.cpp
 
-  void pou(Node pous, const ast::PouDecl &decl, const DeclarationTexts &texts, bool whole) const;
+  Node pou(Node pous, const ast::PouDecl &decl, const DeclarationTexts &texts, bool whole) const;
   /// An INTERFACE, in the project's addData.
-  void interface(Node project, const ast::PouDecl &decl, const DeclarationTexts &texts,
+  Node interface(Node project, const ast::PouDecl &decl, const DeclarationTexts &texts,
                  bool whole) const;
   /// Variables in lists of the same section and qualifiers, in the order of the text.
   void variables(Node interface, std::span<ast::VarDecl *const> variables) const;
   static void setQualifiers(Node list, uint8_t qualifiers);
+
+  // ---- plcopen_chart.cpp
+
+  /// The body and the named transitions of a POU whose body is a chart. False: it is none, or one
+  /// that stays text.
+  static bool chart(Node pou, std::string_view body);
 
   // ---- plcopen_tasks.cpp
 
   /// The tasks, as stride.toml or a CONFIGURATION gives them.
   void tasks(Node resource) const;
   /// A list of global variables, of all its blocks.
-  void globals(Node resource, const std::string &name,
+  Node globals(Node resource, const std::string &name,
                const std::vector<const ast::GlobalsDecl *> &blocks, const DeclarationTexts &texts,
                bool whole) const;
 

@@ -192,7 +192,7 @@ void Writer::members(Node pou, const PouDecl &decl, const DeclarationTexts &text
     property(addData(pou, kCodesys, "property"), *each, texts);
 }
 
-void Writer::pou(Node pous, const PouDecl &decl, const DeclarationTexts &texts, bool whole) const {
+Node Writer::pou(Node pous, const PouDecl &decl, const DeclarationTexts &texts, bool whole) const {
   const DeclarationText &text = textFor(texts, decl);
   Node node = pous.append_child("pou");
   node.append_attribute("name") = std::string(decl.name.text).c_str();
@@ -208,15 +208,17 @@ void Writer::pou(Node pous, const PouDecl &decl, const DeclarationTexts &texts, 
       addBody(action, own);
     }
   }
-  addBody(node, text);
+  if (!chart(node, trimmedLines(text.body) + trimmedLines(text.tail)))
+    addBody(node, text);
   if (whole)
     addData(node, kStride, "insource").append_child("InSource");
   else
     addPlainDeclaration(node, plainOf(text));
   members(node, decl, texts);
+  return node;
 }
 
-void Writer::interface(Node project, const PouDecl &decl, const DeclarationTexts &texts,
+Node Writer::interface(Node project, const PouDecl &decl, const DeclarationTexts &texts,
                        bool whole) const {
   const DeclarationText &text = textFor(texts, decl);
   Node node = addData(project, kCodesys, "interface").append_child("Interface");
@@ -233,6 +235,7 @@ void Writer::interface(Node project, const PouDecl &decl, const DeclarationTexts
   else
     addPlainDeclaration(node, plainOf(text) + trimmedLines(text.body) + trimmedLines(text.tail));
   addDocumentation(node, decl.doc);
+  return node;
 }
 
 } // namespace stc::exporting

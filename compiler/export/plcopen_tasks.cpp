@@ -81,7 +81,7 @@ void Writer::tasks(Node resource) const {
   }
 }
 
-void Writer::globals(Node resource, const std::string &name,
+Node Writer::globals(Node resource, const std::string &name,
                      const std::vector<const GlobalsDecl *> &blocks, const DeclarationTexts &texts,
                      bool whole) const {
   Node list = resource.append_child("globalVars");
@@ -101,7 +101,7 @@ void Writer::globals(Node resource, const std::string &name,
   addAttributes(list, blocks.front()->attributes);
   if (whole) {
     addData(list, kStride, "insource").append_child("InSource");
-    return;
+    return list;
   }
   std::string plain;
   for (const GlobalsDecl *each : blocks) {
@@ -110,6 +110,7 @@ void Writer::globals(Node resource, const std::string &name,
              trimmedLines(text.declaration) + trimmedLines(text.tail);
   }
   addPlainDeclaration(list, plain);
+  return list;
 }
 
 } // namespace stc::exporting

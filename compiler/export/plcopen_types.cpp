@@ -172,7 +172,7 @@ void Writer::variable(Node list, const VarDecl &variable) const {
   addDocumentation(node, variable.doc);
 }
 
-void Writer::dataType(Node dataTypes, Node project, const Decl &decl, const DeclarationText &text,
+Node Writer::dataType(Node dataTypes, Node project, const Decl &decl, const DeclarationText &text,
                       bool whole) const {
   const bool isUnion = decl.kind == DeclKind::Structure && as<StructDecl>(&decl)->isUnion;
   Node node = isUnion ? addData(project, kCodesys, "union").append_child("union")
@@ -203,6 +203,7 @@ void Writer::dataType(Node dataTypes, Node project, const Decl &decl, const Decl
     addPlainDeclaration(node, fmt::format("{}TYPE {}\nEND_TYPE\n{}", trimmedLines(text.leading),
                                           text.declaration, trimmedLines(text.tail)));
   addDocumentation(node, decl.doc);
+  return node;
 }
 
 } // namespace stc::exporting

@@ -1,6 +1,7 @@
 #include "compiler/export/plcopen_writer.hpp"
 
 #include "compiler/export/plcopen_parts.hpp"
+#include "compiler/source/content_hash.hpp"
 #include "compiler/source/identifier.hpp"
 
 #include <algorithm>
@@ -25,13 +26,14 @@ std::string trimmedLines(std::string_view text) {
   return std::string(text.substr(begin, last + 1 - begin)) + "\n";
 }
 
-Node Writer::addData(Node parent, std::string_view space, std::string_view name) {
+Node Writer::addData(Node parent, std::string_view space, std::string_view name,
+                     const char *handleUnknown) {
   Node add = parent.child("addData");
   if (!add)
     add = parent.append_child("addData");
   Node data = add.append_child("data");
   data.append_attribute("name") = fmt::format("{}{}", space, name).c_str();
-  data.append_attribute("handleUnknown") = "implementation";
+  data.append_attribute("handleUnknown") = handleUnknown;
   return data;
 }
 
@@ -99,6 +101,7 @@ public:
     resource_.append_attribute("name") = "Application";
     readTexts();
     writer_.tasks(resource_);
+    addStructure();
     for (const File *file : files_)
       add(*file);
     if (hasConfiguration_)
@@ -153,22 +156,62 @@ private:
     }
   }
 
+  /// Folders are said only when there are some.
+  void addStructure() {
+    if (std::ranges::any_of(files_, [&](const File *each) { return !folderOf(*each).empty(); }))
+      structure_ = Writer::addData(root_, kCodesys, "projectstructure", "discard")
+                       .append_child("ProjectStructure");
+  }
+
+  [[nodiscard]] std::filesystem::path folderOf(const File &file) const {
+    return std::filesystem::path(sourceOf(file).name()).lexically_normal().parent_path();
+  }
+
+  /// Puts an object into the folder of its file. CODESYS knows objects by identifications, which
+  /// are the same each time here.
+  void placeObject(Node node, const std::string &name, const File &file) {
+    if (!structure_)
+      return;
+    Node folder = structure_;
+    for (const std::filesystem::path &part : folderOf(file)) {
+      Node below = folder.find_child_by_attribute("Folder", "Name", part.c_str());
+      if (!below) {
+        below = folder.append_child("Folder");
+        below.append_attribute("Name") = part.c_str();
+      }
+      folder = below;
+    }
+    const std::string hash =
+        blake2b256(fmt::format("{}:{}:{}", project_.name(), node.name(), lowerCase(name)));
+    const std::string id = fmt::format("{}-{}-4{}-a{}-{}", hash.substr(0, 8), hash.substr(8, 4),
+                                       hash.substr(13, 3), hash.substr(17, 3), hash.substr(20, 12));
+    if (node.name() == std::string_view("Interface") || node.name() == std::string_view("Source"))
+      node.append_attribute("ObjectId") = id.c_str();
+    else
+      Writer::addData(node, kCodesys, "objectid", "discard").append_child("ObjectId").text() =
+          id.c_str();
+    Node object = folder.append_child("Object");
+    object.append_attribute("Name") = name.c_str();
+    object.append_attribute("ObjectId") = id.c_str();
+  }
+
   void add(const File &file) {
     const bool whole = whole_[&file];
     const std::string stem = std::filesystem::path(sourceOf(file).name()).stem().string();
     std::map<std::string, std::vector<const GlobalsDecl *>> lists;
     for (const Decl *decl : file.declarations) {
+      Node node;
       switch (decl->kind) {
       case DeclKind::Structure:
       case DeclKind::Enumeration:
       case DeclKind::Alias:
-        writer_.dataType(dataTypes_, root_, *decl, texts_[decl], whole);
+        node = writer_.dataType(dataTypes_, root_, *decl, texts_[decl], whole);
         break;
       case DeclKind::Globals:
         lists[decl->name ? std::string(decl->name.text) : stem].push_back(as<GlobalsDecl>(decl));
         break;
       case DeclKind::Interface:
-        writer_.interface(root_, *static_cast<const PouDecl *>(decl), texts_, whole);
+        node = writer_.interface(root_, *static_cast<const PouDecl *>(decl), texts_, whole);
         break;
       case DeclKind::Configuration:
         hasConfiguration_ = true;
@@ -177,12 +220,17 @@ private:
       case DeclKind::Access:
         break;
       default:
-        writer_.pou(pous_, *static_cast<const PouDecl *>(decl), texts_, whole);
+        node = writer_.pou(pous_, *static_cast<const PouDecl *>(decl), texts_, whole);
         break;
       }
+      if (node && !whole)
+        placeObject(node, std::string(decl->name.text), file);
     }
-    for (const auto &[name, blocks] : lists)
-      writer_.globals(resource_, name, blocks, texts_, whole);
+    for (const auto &[name, blocks] : lists) {
+      Node node = writer_.globals(resource_, name, blocks, texts_, whole);
+      if (!whole)
+        placeObject(node, name, file);
+    }
     if (whole)
       addSource(file, stem);
   }
@@ -191,6 +239,7 @@ private:
     Node source = Writer::addData(root_, kStride, "source").append_child("Source");
     source.append_attribute("name") = stem.c_str();
     Writer::addXhtml(source, sourceOf(file).text());
+    placeObject(source, stem, file);
     notes_.push_back(fmt::format("{}: other tools do not get its namespaces, conditional pragmas, "
                                  "CONFIGURATION, VAR_CONFIG or VAR_ACCESS",
                                  sourceOf(file).name()));
@@ -204,6 +253,7 @@ private:
   Node dataTypes_;
   Node pous_;
   Node resource_;
+  Node structure_;                  ///< null: all files lie in the project's own folder
   std::vector<const File *> files_; ///< of the project itself
   DeclarationTexts texts_;
   std::map<const File *, bool> whole_;

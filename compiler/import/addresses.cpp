@@ -1,7 +1,7 @@
 #include "compiler/import/addresses.hpp"
 
-#include "compiler/import/st_words.hpp"
 #include "compiler/source/identifier.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <array>

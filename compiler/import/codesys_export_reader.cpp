@@ -2,9 +2,10 @@
 
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/libraries.hpp"
-#include "compiler/import/st_scan.hpp"
+#include "compiler/import/texts.hpp"
 #include "compiler/import/unit_text.hpp"
 #include "compiler/import/xml_document.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "compiler/import/dialect.hpp"
-
-#include "compiler/import/st_words.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,5 @@
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 
@@ -50,13 +51,6 @@ std::string joined(const std::vector<std::string> &lines) {
   for (const std::string &line : lines)
     text += line + "\n";
   return text;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos)
-    return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
 std::string_view firstWord(std::string_view line) {

@@ -3,6 +3,7 @@
 // Lines of CoDeSys V2.3 exports and what stands in them.
 
 #include "compiler/import/model.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <string>
 #include <string_view>
@@ -13,7 +14,6 @@ namespace stc::import {
 /// The lines without their ends.
 [[nodiscard]] std::vector<std::string_view> linesOf(std::string_view text);
 [[nodiscard]] std::string joined(const std::vector<std::string> &lines);
-[[nodiscard]] std::string_view trimmed(std::string_view text);
 /// Letters, digits and `_` at the beginning, after blanks.
 [[nodiscard]] std::string_view firstWord(std::string_view line);
 /// What stands between the first and the last apostrophe.

@@ -5,7 +5,7 @@
 #include "compiler/import/exp_tasks.hpp"
 #include "compiler/import/networks/exp_networks.hpp"
 #include "compiler/import/plc_configuration.hpp"
-#include "compiler/import/st_words.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <array>

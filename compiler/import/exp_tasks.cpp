@@ -1,6 +1,7 @@
 #include "compiler/import/exp_tasks.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <array>
 

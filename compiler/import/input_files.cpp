@@ -107,9 +107,19 @@ public:
   void add(const std::string &path) {
     std::error_code error;
     if (fs::is_directory(path, error)) {
-      if (!addFolder(path, 0))
+      inFolder_ = true;
+      const bool found = addFolder(path, 0);
+      inFolder_ = false;
+      if (!found)
         refuseFolder(path);
+      else if (otherKinds_ != 0)
+        model_.notes.push_back(
+            fmt::format("{} below {} whose ending others use, too, passed over: none of the "
+                        "imported formats (the first: {})",
+                        otherKinds_ == 1 ? "1 file" : fmt::format("{} files", otherKinds_), path,
+                        foreign_.front()));
       foreign_.clear();
+      otherKinds_ = 0;
       return;
     }
     if (isNew(path))
@@ -177,38 +187,47 @@ private:
       else if (!isNew(path))
         found = found || hasKnownExtension(name);
       else if (hasKnownExtension(name))
-        read(path), found = true;
+        found = read(path) || found;
       else if (formatOf(name, {}).known)
         foreign_.push_back(path);
     }
     return found;
   }
 
-  void read(const std::string &path) {
+  /// False: it lies in a folder and is of another kind.
+  bool read(const std::string &path) {
     const std::optional<std::string> bytes = readSource(path, kMostBytes);
     if (!bytes)
-      return refuse({path, 1}, fmt::format("it cannot be read: {}", readSourceError(kMostBytes)));
+      return refuse({path, 1}, fmt::format("it cannot be read: {}", readSourceError(kMostBytes))),
+             true;
     FormatChoice choice = formatOf(path, *bytes);
     if (choice.format == nullptr && choice.known)
-      return refuse({path, 1}, std::move(choice.refusal));
+      return refuse({path, 1}, std::move(choice.refusal)), true;
     DecodedText text = decoded(*bytes, encoding_);
     if (!text.problem.empty())
-      return refuse({path, text.line}, text.problem);
+      return refuse({path, text.line}, text.problem), true;
     choice = formatOf(path, text.text); // UTF-16 shows only now what it is
     if (choice.format == nullptr)
-      return refuse({path, 1}, std::move(choice.refusal));
+      return refuse({path, 1}, std::move(choice.refusal)), true;
+    if (inFolder_ && choice.format->sharedExtension && !choice.format->matches(text.text)) {
+      foreign_.insert(foreign_.begin() + static_cast<ptrdiff_t>(otherKinds_++), path);
+      return false;
+    }
     if (text.assumed)
       model_.assumedEncoding.push_back(path);
     dropCarriageReturns(text.text);
     const size_t refused = model_.unreadable.size();
     choice.format->read(path, text.text, model_);
     model_.files += model_.unreadable.size() == refused ? 1 : 0;
+    return true;
   }
 
   const std::string &encoding_;
   Model &model_;
   std::set<std::pair<dev_t, ino_t>> seen_;
-  size_t followed_ = 0;              ///< references that have been read
+  size_t followed_ = 0; ///< references that have been read
+  bool inFolder_ = false;
+  size_t otherKinds_ = 0;            ///< so many at the front of `foreign_` only share an ending
   std::vector<std::string> foreign_; ///< known, but not read: named when nothing else is there
 };
 

@@ -1,8 +1,8 @@
 #include "compiler/import/libraries.hpp"
 
 #include "compiler/import/exp_lines.hpp"
-#include "compiler/import/st_words.hpp"
 #include "compiler/source/identifier.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <set>
@@ -30,11 +30,12 @@ std::string listed(const std::vector<std::string> &names) {
   return text;
 }
 
-/// `STANDARD.LIB`: standard
+/// `STANDARD.LIB`: standard; `CAA Memory`: caa_memory
 std::string plainName(std::string_view name) {
   std::string lower = lowerCase(name);
   if (lower.ends_with(".lib"))
     lower.resize(lower.size() - 4);
+  std::ranges::replace(lower, ' ', '_');
   return lower;
 }
 
@@ -53,6 +54,8 @@ void lookUpByName(const LibraryReference &library, Model &model, const OwnLibrar
 } // namespace
 
 LibraryReference libraryNamed(std::string_view text, Origin origin) {
+  if (text.starts_with('#')) // a placeholder: the name without a version
+    text.remove_prefix(1);
   const size_t comma = std::min(text.find(','), text.size());
   const std::string_view rest = text.substr(std::min(comma + 1, text.size()));
   return {std::string(trimmed(text.substr(0, comma))),

@@ -2,7 +2,9 @@
 
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/project_files.hpp"
+#include "compiler/import/texts.hpp"
 #include "compiler/source/identifier.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,22 +38,6 @@ struct Module {
   std::string name;
   Origin origin;
 };
-
-/// `name` as an identifier; names of modules are any texts.
-std::string identifierOf(std::string_view name) {
-  std::string result;
-  for (const char c : name) {
-    const bool good =
-        c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (good && !(c == '_' && result.ends_with('_')))
-      result += c;
-    else if (!good && !result.ends_with('_'))
-      result += '_';
-  }
-  if (result.empty() || (result.front() >= '0' && result.front() <= '9'))
-    result.insert(result.begin(), '_');
-  return result;
-}
 
 /// `'name' 'comment'`: the texts between apostrophes; `$'` is one in a text.
 std::vector<std::string> textsOf(std::string_view line) {
@@ -186,7 +172,7 @@ private:
   }
 
   std::string nameOf(const Module &module) {
-    std::string name = identifierOf(module.name);
+    std::string name = asIdentifier(module.name);
     if (name != module.name)
       model_.changed.push_back(
           {module.origin, fmt::format("module `{}`", module.name),
@@ -240,7 +226,7 @@ private:
   }
 
   void addNamed(IoChannel channel) {
-    const std::string name = identifierOf(channel.name);
+    const std::string name = asIdentifier(channel.name);
     if (name != channel.name)
       model_.changed.push_back({channel.origin, fmt::format("channel `{}`", channel.name),
                                 fmt::format("became {}: it is a variable here", name)});

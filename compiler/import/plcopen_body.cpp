@@ -3,7 +3,7 @@
 #include "compiler/import/networks/plcopen_networks.hpp"
 #include "compiler/import/networks/print.hpp"
 #include "compiler/import/plcopen_context.hpp"
-#include "compiler/import/st_scan.hpp"
+#include "compiler/import/texts.hpp"
 
 #include <sstream>
 #include <utility>
@@ -13,15 +13,6 @@
 namespace stc::import::plcopen {
 
 namespace {
-
-/// A name for the file that keeps what cannot be translated.
-std::string keptNameOf(const std::string &object, size_t line) {
-  std::string name = fmt::format("{}_{}", object, line);
-  for (char &c : name)
-    if (!isName(std::string("_") + c))
-      c = '_';
-  return name;
-}
 
 /// The line that stands for a drawing until everything is declared that it may name.
 std::string drawingText(Context &context, const Node &body, const Node &drawing,
@@ -41,14 +32,14 @@ std::string drawingText(Context &context, const Node &body, const Node &drawing,
         refused.problems = problems;
         return refused;
       },
-      {keptNameOf(object, origin.line), kept.str()});
+      {asIdentifier(fmt::format("{}_{}", object, origin.line)), kept.str()});
 }
 
 } // namespace
 
 std::string errorPragma(std::string_view why) {
   std::string text = quotedForSt(why);
-  for (char &c : text) // not all that looks for the end of a pragma knows texts
+  for (char &c : text) // after a `$'` the compiler looks for the end of the pragma
     c = c == '}' || c == '{' ? ' ' : c;
   return fmt::format("{{error 'body not imported: {}'}}\n", text);
 }

@@ -1,7 +1,9 @@
 // Sequential function charts of PLCopen XML as textual SFC. The file has steps, transitions and
 // lines between them: which steps a transition leaves and enters is followed along the lines.
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/plcopen_conditions.hpp"
 #include "compiler/import/plcopen_context.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -42,22 +44,9 @@ std::string bare(const std::string &text) {
 
 /// Whether a `;` stands in it outside of texts and comments: it is more than an expression.
 bool hasStatements(std::string_view text) {
-  char quote = 0;
-  size_t depth = 0;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const std::string_view two = text.substr(i, 2);
-    if (quote != 0)
-      quote = text[i] == quote ? '\0' : quote;
-    else if (two == "(*")
-      ++depth;
-    else if (two == "*)")
-      depth -= depth > 0 ? 1 : 0;
-    else if (depth == 0 && (text[i] == '\'' || text[i] == '"'))
-      quote = text[i];
-    else if (depth == 0 && text[i] == ';')
-      return true;
-  }
-  return false;
+  const std::vector<StWord> words = wordsOf(text);
+  return std::any_of(words.begin(), words.end(),
+                     [&](const StWord &each) { return text[each.begin] == ';'; });
 }
 
 /// What cannot be read; the chart is left out as a whole.
@@ -70,7 +59,8 @@ class Chart {
 public:
   Chart(Context &context, const Node &sfc, const Node &pou, std::string object,
         std::string &members)
-      : context_(context), sfc_(sfc), pou_(pou), object_(std::move(object)), members_(members) {}
+      : context_(context), sfc_(sfc), pou_(pou), object_(std::move(object)), members_(members),
+        drawn_(context, pou ? pou : sfc, object_) {}
 
   std::string text() {
     std::string result = read();
@@ -92,23 +82,40 @@ private:
       fail(sfc_, fmt::format("it has more than {} elements", kMostElements));
     for (const Node &each : all)
       elements_.emplace(attribute(each, "localId"), each);
-    context_.leaveOutUnknown(
-        sfc_, {"step", "transition", "jumpStep", "selectionDivergence", "selectionConvergence",
-               "simultaneousDivergence", "simultaneousConvergence", "actionBlock", "inVariable",
-               "leftPowerRail", "contact", "comment", "macroStep", "block", "rightPowerRail"});
+    context_.leaveOutUnknown(sfc_, {"step", "transition", "jumpStep", "selectionDivergence",
+                                    "selectionConvergence", "simultaneousDivergence",
+                                    "simultaneousConvergence", "actionBlock", "inVariable",
+                                    "leftPowerRail", "contact", "comment", "macroStep", "block",
+                                    "rightPowerRail", "connector", "continuation"});
     if (problem_)
       return {};
     for (const Node &each : all)
       if (localName(each) == "macroStep")
         fail(each, "macro steps are not imported");
+    for (const Node &each : all)
+      if (localName(each) == "actionBlock")
+        for (const std::string &id : inputsOf(each))
+          blocks_[id].push_back(each);
     readTargets(all);
+    readTransitions(all);
     std::string result;
+    size_t initial = std::string::npos; // where the actions of the first initial step end
     for (const Node &each : all) {
       const std::string_view kind = localName(each);
-      if (kind == "step")
-        result += step(each, all);
-      else if (kind == "comment")
+      if (kind == "step") {
+        const std::string head = step(each);
+        if (isTrue(each, "initialStep") && initial == std::string::npos)
+          initial = result.size() + head.size();
+        result += head + "END_STEP\n" + transitionsOf(attribute(each, "name"));
+      } else if (kind == "comment") {
         result += commentLines(linesOf(child(each, "content")), {}, "//");
+      }
+    }
+    if (const std::string action = drawn_.finish(members_); !action.empty()) {
+      if (initial == std::string::npos)
+        fail(sfc_, "its conditions are drawn with blocks, and it has no initial step");
+      else
+        result.insert(initial, fmt::format("  {}(S);\n", action));
     }
     return result;
   }
@@ -144,7 +151,8 @@ private:
     } else if (kind == "selectionConvergence" || kind == "simultaneousDivergence") {
       for (std::string &each : inputsOf(found->second))
         open.push_back(std::move(each));
-    } else if (kind != "leftPowerRail") {
+    } else if (kind != "leftPowerRail" && kind != "jumpStep") {
+      // CODESYS draws a line also from a branch that ends in a jump.
       fail(from, fmt::format("a line leads to `{}` from a {} instead of a transition", name, kind));
     }
   }
@@ -175,21 +183,17 @@ private:
     return sources;
   }
 
-  std::string step(const Node &node, const std::vector<Node> &all) {
+  /// Without END_STEP.
+  std::string step(const Node &node) {
     const std::string id = attribute(node, "localId");
     const std::string name = attribute(node, "name");
     std::string text = documentationLines(node);
     reportProperties(node, name);
     text += fmt::format("{} {}:\n", isTrue(node, "initialStep") ? "INITIAL_STEP" : "STEP", name);
-    for (const Node &each : all) {
-      if (localName(each) != "actionBlock")
-        continue;
-      const std::vector<std::string> inputs = inputsOf(each);
-      if (std::find(inputs.begin(), inputs.end(), id) != inputs.end())
-        for (const Node &action : children(each, "action"))
-          text += "  " + actionText(action, name) + "\n";
-    }
-    return text + "END_STEP\n" + transitionsOf(name, all);
+    for (const Node &each : blocks_[id])
+      for (const Node &action : children(each, "action"))
+        text += "  " + actionText(action, name) + "\n";
+    return text;
   }
 
   /// Entry and exit actions and times of CODESYS's steps, of which the file says only numbers.
@@ -211,7 +215,7 @@ private:
     const std::string time = attribute(action, "duration");
     const std::string indicator = attribute(action, "indicator");
     if (const Node body = child(action, "inline")) {
-      name = fmt::format("{}_action{}", stepName, ++ownActions_);
+      name = drawn_.freshName(fmt::format("{}_action{}", stepName, ++ownActions_));
       std::string inner;
       members_ += fmt::format("\nACTION {}:\n{}END_ACTION\n", name,
                               bodyText(context_, body, {}, object_ + "." + name, inner));
@@ -226,26 +230,25 @@ private:
                        time.empty() ? "" : ", ", time);
   }
 
+  void readTransitions(const std::vector<Node> &all) {
+    for (const Node &each : all) {
+      if (localName(each) != "transition")
+        continue;
+      std::vector<std::string> sources = sourcesOf(each);
+      if (sources.empty())
+        fail(each, "a transition comes from no step");
+      else
+        transitions_[sources.front()].push_back({each, sources, horizontal(each)});
+    }
+    for (auto &[name, own] : transitions_)
+      std::ranges::stable_sort(own, {}, &Transition::horizontal);
+  }
+
   /// The transitions whose first step it is: by priority, then from left to right.
-  std::string transitionsOf(const std::string &name, const std::vector<Node> &all) {
-    if (transitions_.empty())
-      for (const Node &each : all)
-        if (localName(each) == "transition") {
-          std::vector<std::string> sources = sourcesOf(each);
-          if (sources.empty())
-            fail(each, "a transition comes from no step");
-          transitions_.push_back({each, std::move(sources), horizontal(each)});
-        }
-    std::vector<const Transition *> own;
-    for (const Transition &each : transitions_)
-      if (!each.sources.empty() && each.sources.front() == name)
-        own.push_back(&each);
-    std::stable_sort(own.begin(), own.end(), [](const Transition *a, const Transition *b) {
-      return a->horizontal < b->horizontal;
-    });
+  std::string transitionsOf(const std::string &name) {
     std::string text;
-    for (const Transition *each : own)
-      text += transitionText(*each);
+    for (const Transition &each : transitions_[name])
+      text += transitionText(each);
     return text;
   }
 
@@ -286,29 +289,56 @@ private:
       for (const Node &each : children(child(pou_, "transitions"), "transition"))
         if (sameName(attribute(each, "name"), wanted)) {
           name = wanted;
-          return ofBody(child(each, "body"), each, negated);
+          return ofBody(child(each, "body"), each, wanted, negated);
         }
       return ofText(wanted, reference, negated);
     }
     if (const Node body = child(condition, "inline"))
-      return ofBody(body, transition, negated);
+      return ofBody(body, transition, attribute(body, "name"), negated);
     const std::vector<std::string> inputs = inputsOf(condition);
     if (inputs.empty()) {
       fail(transition, "a transition has no condition");
       return {};
     }
+    if (isDrawnWithBlocks(inputs)) // `negated` is part of the drawing
+      return ofText(drawn_.ofLines(transition, condition, elements_), transition, false);
     visited_ = 0;
     return ofText(valueOf(inputs, transition, 0), transition, negated);
   }
 
-  std::string ofBody(const Node &body, const Node &place, bool negated) {
+  /// Whether something leads to the condition that is neither a variable nor a plain contact.
+  bool isDrawnWithBlocks(std::vector<std::string> open) {
+    std::set<std::string> seen;
+    while (!open.empty()) {
+      const std::string id = open.back();
+      open.pop_back();
+      const auto found = elements_.find(id);
+      if (found == elements_.end() || !seen.insert(id).second)
+        continue;
+      const Node &node = found->second;
+      const std::string_view kind = localName(node);
+      const bool edge = kind == "contact" && attribute(node, "edge").size() >= 5;
+      if (edge || kind == "block" || kind == "continuation")
+        return true;
+      for (std::string &each : inputsOf(node))
+        if (kind == "contact")
+          open.push_back(std::move(each));
+    }
+    return false;
+  }
+
+  std::string ofBody(const Node &body, const Node &place, const std::string &name, bool negated) {
     const Node text = firstElement(body);
     const std::string_view kind = localName(text);
     if (kind == "ST")
       return ofText(bare(textOf(text)), place, negated);
     if (kind == "IL" && !negated)
       return ":\n" + linesOf(text);
-    fail(place, fmt::format("the condition of a transition is drawn ({})", kind));
+    if (const std::string value = drawn_.ofBody(body, place, name); !value.empty())
+      return ofText(value, place, negated);
+    fail(place, fmt::format("the condition of a transition is drawn ({}), and nothing in it is "
+                            "assigned to `{}`",
+                            kind, name));
     return {};
   }
 
@@ -365,10 +395,12 @@ private:
   const Node pou_;
   const std::string object_;
   std::string &members_;
+  DrawnConditions drawn_;
   std::optional<Problem> problem_;
-  std::map<std::string, Node> elements_;                    ///< by localId
-  std::map<std::string, std::vector<std::string>> targets_; ///< of transitions
-  std::vector<Transition> transitions_;
+  ChartElements elements_;
+  std::map<std::string, std::vector<std::string>> targets_;    ///< of transitions
+  std::map<std::string, std::vector<Transition>> transitions_; ///< by their first step
+  std::map<std::string, std::vector<Node>> blocks_; ///< of actions, by the step's localId
   size_t ownActions_ = 0;
   size_t visited_ = 0; ///< elements of the condition that is read
 };

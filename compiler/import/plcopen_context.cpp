@@ -1,11 +1,13 @@
 #include "compiler/import/plcopen_context.hpp"
 
 #include "compiler/import/exp_lines.hpp"
-#include "compiler/import/st_scan.hpp"
 
+#include "compiler/import/texts.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,15 @@ bool contains(std::initializer_list<std::string_view> names, std::string_view na
 /// Elements of addData that say nothing about the program: identification, dates of the tool.
 bool isIdentification(std::string_view element) {
   return contains({"ObjectId", "ProjectInformation", "ProjectStructure"}, element);
+}
+
+/// The lines after CommentState; nothing when a comment has no end.
+std::optional<std::string> withComments(std::string_view text, bool nested) {
+  CommentState state(nested);
+  std::string result;
+  for (const std::string_view line : import::linesOf(text))
+    result += state.line(line) + "\n";
+  return state.inside() ? std::nullopt : std::optional(std::move(result));
 }
 
 /// Text in apostrophes as a pragma holds it.
@@ -144,6 +155,14 @@ std::string Context::nameOf(const Node &node, std::string_view kind) {
   return {};
 }
 
+bool Context::isNotBuilt(const Node &node, const std::string &name) {
+  const Node properties = extra(node, "BuildProperties");
+  if (!sameName(textOf(child(properties, "ExcludeFromBuild")), "true"))
+    return false;
+  changed(properties, name, "dropped: it is excluded from the build there");
+  return true;
+}
+
 std::vector<std::string> Context::folderOf(const Node &node) const {
   std::string id = attribute(node, "ObjectId");
   if (id.empty())
@@ -153,17 +172,19 @@ std::vector<std::string> Context::folderOf(const Node &node) const {
 }
 
 void Context::add(ObjectKind kind, const Node &node, std::string name, std::string text) {
+  // The file does not say whether comments nest; most tools that are not CODESYS do not do that.
+  if (!withComments(text, true))
+    if (std::optional<std::string> other = withComments(text, false)) {
+      text = std::move(*other);
+      changed(node, name, "comments that stand in comments: each `(*` in them became `( *`");
+    }
   model_.objects.push_back(
       {kind, std::move(name), folderOf(node), std::move(text), originOf(node)});
 }
 
 std::string Context::addHelperType(const Node &node, const std::string &owner,
                                    const std::string &text) {
-  std::string name = owner;
-  for (char &c : name)
-    if (!isName(std::string("_") + c))
-      c = '_';
-  name += fmt::format("_type{}", ++helperTypes_);
+  const std::string name = fmt::format("{}_type{}", asIdentifier(owner), ++helperTypes_);
   add(ObjectKind::Type, node, name, fmt::format("TYPE {} :\n{}\nEND_TYPE\n", name, text));
   changed(node, owner, fmt::format("its type is declared in line; it became {}", name));
   return name;

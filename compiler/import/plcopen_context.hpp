@@ -61,6 +61,9 @@ public:
   /// The attribute `name` when it is one of ST; otherwise it is reported, and empty.
   [[nodiscard]] std::string nameOf(const Node &node, std::string_view kind);
 
+  /// Whether CODESYS's build properties exclude the object from the build; it is reported then.
+  [[nodiscard]] bool isNotBuilt(const Node &node, const std::string &name);
+
   /// Folder of an object: by the identification in its addData, or by its own name.
   [[nodiscard]] std::vector<std::string> folderOf(const Node &node) const;
   void setFolder(const std::string &id, std::vector<std::string> folder) {

@@ -2,6 +2,7 @@
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/plcopen_context.hpp"
 #include "compiler/import/project_files.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <array>

@@ -112,7 +112,10 @@ void readGlobals(Context &context, const Node &list, const std::string &fallback
                       fmt::format("its name is no identifier; it became {}", fallbackName));
     name = fallbackName;
   }
-  context.leaveOutUnknownExtras(list, {"MixedAttrsVarList", "Attributes", "InterfaceAsPlainText"});
+  if (context.isNotBuilt(list, name))
+    return;
+  context.leaveOutUnknownExtras(
+      list, {"MixedAttrsVarList", "Attributes", "InterfaceAsPlainText", "BuildProperties"});
   std::string text = plainDeclaration(list);
   if (text.empty())
     for (const Node &block : blocksOf(list)) {

@@ -2,6 +2,7 @@
 // interfaces).
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/plcopen_context.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <array>
 
@@ -30,7 +31,9 @@ std::string modifiersOf(const Node &interface) {
 }
 
 std::string inheritanceOf(const Node &interface) {
-  const Node inheritance = extra(interface, "Inheritance");
+  Node inheritance = extra(interface, "Inheritance");
+  if (!inheritance) // of an INTERFACE, old versions of CODESYS write it without addData
+    inheritance = child(interface, "Inheritance");
   std::string text;
   for (const std::string_view kind : {"Extends", "Implements"}) {
     std::string names;
@@ -198,28 +201,9 @@ std::string_view pouKeywordOf(std::string_view type) {
   return {};
 }
 
-/// The word that the declaration begins with, after comments and pragmas: PROGRAM, CLASS …
-std::string_view firstKeyword(std::string_view declaration) {
-  for (size_t at = 0; at < declaration.size();) {
-    const std::string_view rest = declaration.substr(at);
-    size_t end = 1;
-    if (rest.starts_with("//"))
-      end = rest.find('\n');
-    else if (rest.starts_with("(*"))
-      end = rest.find("*)");
-    else if (rest.starts_with("{"))
-      end = rest.find('}');
-    else if (const std::string_view word = firstWord(rest.substr(0, rest.find('\n')));
-             !word.empty() && word.front() == rest.front())
-      return word;
-    at = end == std::string_view::npos ? declaration.size() : at + end;
-  }
-  return {};
-}
-
 /// What ends the declaration: the file's word for the kind says less than the author's text.
 std::string_view closingKeyword(std::string_view declaration, std::string_view keyword) {
-  const std::string_view first = firstKeyword(declaration);
+  const std::string first = firstKeyword(declaration);
   for (const PouKind &each : kPouKinds)
     if (sameName(each.keyword, first))
       return each.keyword;
@@ -230,7 +214,7 @@ std::string_view closingKeyword(std::string_view declaration, std::string_view k
 
 void readPou(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "POU");
-  if (name.empty() || isInSource(node))
+  if (name.empty() || isInSource(node) || context.isNotBuilt(node, name))
     return;
   std::string_view keyword = pouKeywordOf(attribute(node, "pouType"));
   if (keyword.empty()) {
@@ -241,8 +225,8 @@ void readPou(Context &context, const Node &node) {
   }
   context.leaveOutUnknown(node, {"interface", "body", "actions", "transitions", "documentation",
                                  "InterfaceAsPlainText"});
-  context.leaveOutUnknownExtras(node,
-                                {"Method", "Property", "InterfaceAsPlainText", "SFCSettings"});
+  context.leaveOutUnknownExtras(
+      node, {"Method", "Property", "InterfaceAsPlainText", "SFCSettings", "BuildProperties"});
   reportFlags(context, node, name);
   const std::string declaration = declarationOf(context, node, keyword, name, name);
   std::string members;
@@ -255,12 +239,12 @@ void readPou(Context &context, const Node &node) {
 
 void readInterface(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "interface");
-  if (name.empty() || isInSource(node))
+  if (name.empty() || isInSource(node) || context.isNotBuilt(node, name))
     return;
-  context.leaveOutUnknown(
-      node, {"Methods", "Properties", "documentation", "InterfaceAsPlainText", "interface"});
-  context.leaveOutUnknownExtras(
-      node, {"Inheritance", "Attributes", "InterfaceAsPlainText", "Method", "Property"});
+  context.leaveOutUnknown(node, {"Methods", "Properties", "Inheritance", "documentation",
+                                 "InterfaceAsPlainText", "interface"});
+  context.leaveOutUnknownExtras(node, {"Inheritance", "Attributes", "InterfaceAsPlainText",
+                                       "Method", "Property", "BuildProperties"});
   std::string text = plainDeclaration(node);
   if (text.empty())
     text = fmt::format("{}{}INTERFACE {}{}\n", documentationLines(node), attributeLines(node), name,

@@ -2,6 +2,7 @@
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/plcopen_context.hpp"
 
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -184,12 +185,12 @@ std::string variableLines(Context &context, const Node &list, const std::string 
 
 void readDataType(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "type");
-  if (name.empty() || isInSource(node))
+  if (name.empty() || isInSource(node) || context.isNotBuilt(node, name))
     return;
   context.leaveOutUnknown(node,
                           {"baseType", "initialValue", "documentation", "InterfaceAsPlainText"});
-  context.leaveOutUnknownExtras(
-      node, {"Attributes", "Inheritance", "EnumValueDocumentation", "InterfaceAsPlainText"});
+  context.leaveOutUnknownExtras(node, {"Attributes", "Inheritance", "EnumValueDocumentation",
+                                       "InterfaceAsPlainText", "BuildProperties"});
   if (const std::string plain = plainDeclaration(node); !plain.empty())
     return context.add(ObjectKind::Type, node, name, plain);
   const Node base = child(node, "baseType");
@@ -212,10 +213,11 @@ void readDataType(Context &context, const Node &node) {
 
 void readUnion(Context &context, const Node &node) {
   const std::string name = context.nameOf(node, "union");
-  if (name.empty() || isInSource(node))
+  if (name.empty() || isInSource(node) || context.isNotBuilt(node, name))
     return;
   context.leaveOutUnknown(node, {"variable", "documentation", "InterfaceAsPlainText"});
-  context.leaveOutUnknownExtras(node, {"Attributes", "InterfaceAsPlainText", "InSource"});
+  context.leaveOutUnknownExtras(
+      node, {"Attributes", "InterfaceAsPlainText", "InSource", "BuildProperties"});
   if (const std::string plain = plainDeclaration(node); !plain.empty())
     return context.add(ObjectKind::Type, node, name, plain);
   context.add(ObjectKind::Type, node, name,

@@ -33,11 +33,11 @@ constexpr std::string_view kTwinCatFiles =
 
 // A format is added here.
 constexpr std::array<Format, 5> kFormats = {{
-    {"CoDeSys V2.3 export", ".exp", isExp, readExp},
-    {"PLCopen XML", ".xml", isPlcOpen, readPlcOpen},
-    {"TwinCAT 3", kTwinCatFiles, isTwinCat, readTwinCat},
-    {"CODESYS V3 export", ".export", isCodesysExport, readCodesysExport},
-    {"Siemens SCL", ".scl .udt .db", isScl, readScl},
+    {"CoDeSys V2.3 export", ".exp", isExp, false, readExp},
+    {"PLCopen XML", ".xml", isPlcOpen, true, readPlcOpen},
+    {"TwinCAT 3", kTwinCatFiles, isTwinCat, false, readTwinCat},
+    {"CODESYS V3 export", ".export", isCodesysExport, false, readCodesysExport},
+    {"Siemens SCL", ".scl .udt .db", isScl, false, readScl},
 }};
 
 /// Files of project tools that hold no text to read.

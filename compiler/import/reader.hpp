@@ -17,6 +17,8 @@ struct Format {
   /// Whether the beginning of the content is of this format; for files whose ending several
   /// formats have.
   bool (*matches)(std::string_view text);
+  /// Its ending is that of many kinds of files: of those in a folder only what matches() is read.
+  bool sharedExtension;
   /// Adds what the file holds to the model; `text` is UTF-8. What is not imported becomes a remark
   /// in Model::leftOut. A file that cannot be read as a whole adds to Model::unreadable.
   void (*read)(const std::string &file, std::string_view text, Model &model);

@@ -3,7 +3,7 @@
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/scl_text.hpp"
 #include "compiler/import/scl_tokens.hpp"
-#include "compiler/import/st_scan.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>

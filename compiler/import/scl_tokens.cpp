@@ -1,6 +1,6 @@
 #include "compiler/import/scl_tokens.hpp"
 
-#include "compiler/import/st_scan.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/libraries.hpp"
 #include "compiler/import/project_files.hpp"
-#include "compiler/import/st_scan.hpp"
+#include "compiler/import/texts.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "compiler/import/twincat_reader.hpp"
 
-#include "compiler/import/st_scan.hpp"
+#include "compiler/import/texts.hpp"
 #include "compiler/import/twincat_project.hpp"
 #include "compiler/import/unit_text.hpp"
 #include "compiler/import/xml_document.hpp"

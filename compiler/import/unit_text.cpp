@@ -1,7 +1,8 @@
 #include "compiler/import/unit_text.hpp"
 
 #include "compiler/import/exp_lines.hpp"
-#include "compiler/import/st_scan.hpp"
+#include "compiler/import/texts.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>

@@ -63,9 +63,9 @@ struct ChartTarget {
   Diagnostics &diagnostics; ///< for instruction lists
   /// Of the POU: those that it declares; the variables of the steps and actions are added.
   std::vector<ast::VarDecl *> &variables;
-  std::vector<ast::Name> members; ///< names of methods, actions and properties that stand in it
-  std::string_view pou;           ///< its name
-  bool extends;                   ///< it has variables of another one, too
+  std::vector<std::string_view> members; ///< names of methods, actions and properties in its file
+  std::string_view pou;                  ///< its name
+  bool extends;                          ///< it has variables of another one, too
 };
 
 /// Adds the statements of a chart that checkChart() finds right.

@@ -22,8 +22,8 @@ constexpr ChartQualifier kQualifiers[] = {
 constexpr std::string_view kTimeFlags[] = {"SFCError", "SFCEnableLimit", "SFCErrorStep",
                                            "SFCErrorPOU", "SFCQuitError"};
 
-/// Which steps are active.
-using Marking = std::vector<bool>;
+/// Which steps are active: their numbers, in ascending order.
+using Marking = std::vector<size_t>;
 
 /// So many situations of a chart are looked at; one with more is not judged.
 constexpr size_t kMaxMarkings = 4096;
@@ -34,6 +34,8 @@ public:
   explicit ChartWalk(const Chart &chart) : chart_(chart) {
     for (size_t i = 0; i < chart.steps.size(); ++i)
       index_.emplace(chart.steps[i].name.id, i);
+    for (size_t i = 0; i < chart.transitions.size(); ++i)
+      leaving_[chart.transitions[i].from.front().id].push_back(i);
     reached.resize(chart.steps.size());
     enabled.resize(chart.transitions.size());
     twice.resize(chart.transitions.size());
@@ -54,41 +56,50 @@ private:
 
   const Chart &chart_;
   std::map<Ident, size_t> index_;
+  std::map<Ident, std::vector<size_t>> leaving_; ///< transitions by the first step they leave
   std::set<Marking> seen_;
   std::vector<Marking> open_;
 };
 
 void ChartWalk::follow(const Marking &marking) {
-  for (size_t i = 0; i < chart_.transitions.size(); ++i) {
-    const ChartTransition &one = chart_.transitions[i];
-    Marking next = marking;
-    const auto active = [&](const ast::Name &step) { return marking[index_.at(step.id)]; };
-    if (!std::all_of(one.from.begin(), one.from.end(), active))
-      continue;
-    enabled[i] = true;
-    for (const ast::Name &step : one.from)
-      next[index_.at(step.id)] = false;
-    for (const ast::Name &step : one.to) {
-      if (next[index_.at(step.id)])
-        twice[i] = true;
-      next[index_.at(step.id)] = true;
+  const auto isActive = [](const Marking &in, size_t step) {
+    return std::ranges::binary_search(in, step);
+  };
+  for (const size_t first : marking)
+    for (const size_t i : leaving_[chart_.steps[first].name.id]) {
+      const ChartTransition &one = chart_.transitions[i];
+      if (!std::ranges::all_of(one.from, [&](const ast::Name &step) {
+            return isActive(marking, index_.at(step.id));
+          }))
+        continue;
+      enabled[i] = true;
+      Marking next = marking;
+      for (const ast::Name &step : one.from)
+        std::erase(next, index_.at(step.id));
+      for (const ast::Name &step : one.to) {
+        const size_t entered = index_.at(step.id);
+        if (isActive(next, entered))
+          twice[i] = true;
+        else
+          next.insert(std::ranges::upper_bound(next, entered), entered);
+      }
+      visit(next);
     }
-    visit(next);
-  }
 }
 
 bool ChartWalk::run() {
-  Marking first(chart_.steps.size());
+  Marking first;
   for (size_t i = 0; i < chart_.steps.size(); ++i)
-    first[i] = chart_.steps[i].initial;
+    if (chart_.steps[i].initial)
+      first.push_back(i);
   visit(first);
   while (!open_.empty()) {
     if (seen_.size() > kMaxMarkings)
       return false;
     const Marking marking = open_.back();
     open_.pop_back();
-    for (size_t i = 0; i < marking.size(); ++i)
-      reached[i] = reached[i] || marking[i];
+    for (const size_t step : marking)
+      reached[step] = true;
     follow(marking);
   }
   return true;

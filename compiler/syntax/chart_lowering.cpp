@@ -4,17 +4,16 @@
 #include "compiler/syntax/chart_nodes.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace stc {
 
 using namespace ast;
 
 namespace {
-
-bool holds(const std::vector<Name> &list, const Name &step) {
-  return std::any_of(list.begin(), list.end(), [&](const Name &one) { return one.id == step.id; });
-}
 
 class ChartLowering {
 public:
@@ -59,7 +58,7 @@ private:
   Expr *anyStep();
 
   /// Whether nothing of the POU or the chart has this name.
-  [[nodiscard]] bool isFree(const std::string &what) const;
+  [[nodiscard]] bool isFree(const std::string &what);
   void collect();
   Name fires(size_t i) {
     return make_.name(hidden("fire" + std::to_string(i)), chart_.transitions[i].span);
@@ -81,6 +80,8 @@ private:
   ChartNodes make_;
   std::vector<const VarDecl *> declared_; ///< by the POU itself
   std::vector<Use> uses_;                 ///< in the order of the text
+  std::map<Ident, size_t> useOf_;         ///< of an action
+  std::set<std::string> taken_;           ///< names of the POU and the chart, in lower case
 };
 
 const VarDecl *ChartLowering::declared(std::string_view what) const {
@@ -105,14 +106,19 @@ Expr *ChartLowering::anyStep() {
   return make_.combined(BinaryOp::LogicalOr, list);
 }
 
-bool ChartLowering::isFree(const std::string &what) const {
-  const auto named = [&](const auto &one) { return equalIgnoringCase(one.name.text, what); };
-  return declared(what) == nullptr &&
-         std::ranges::none_of(target_.members,
-                              [&](const Name &one) { return equalIgnoringCase(one.text, what); }) &&
-         std::ranges::none_of(chart_.steps, [&](const ChartStep &step) {
-           return named(step) || std::ranges::any_of(step.actions, named);
-         });
+bool ChartLowering::isFree(const std::string &what) {
+  if (taken_.empty()) {
+    for (const VarDecl *one : declared_)
+      taken_.insert(lowerCase(one->name.text));
+    for (const std::string_view one : target_.members)
+      taken_.insert(lowerCase(one));
+    for (const ChartStep &step : chart_.steps) {
+      taken_.insert(lowerCase(step.name.text));
+      for (const ChartAction &action : step.actions)
+        taken_.insert(lowerCase(action.name.text));
+    }
+  }
+  return !taken_.contains(lowerCase(what));
 }
 
 /// The control of an action is `_Action`, as in CODESYS, unless the POU has something of this name
@@ -120,17 +126,16 @@ bool ChartLowering::isFree(const std::string &what) const {
 void ChartLowering::collect() {
   for (const ChartStep &step : chart_.steps) {
     for (const ChartAction &action : step.actions) {
-      auto at = std::find_if(uses_.begin(), uses_.end(),
-                             [&](const Use &use) { return use.name.id == action.name.id; });
-      if (at == uses_.end()) {
+      const auto [at, isNew] = useOf_.emplace(action.name.id, uses_.size());
+      if (isNew) {
         const std::string text(action.name.text);
         const bool free = !target_.extends && isFree("_" + text);
         const Name control =
             make_.name(free ? "_" + text : hidden("action_" + text), action.name.span);
-        at = uses_.insert(at, {action.name, control, {}});
+        uses_.push_back({action.name, control, {}});
         make_.hide(declareOpen(control, "SFCActionType"));
       }
-      at->places.emplace_back(&step, &action);
+      uses_[at->second].places.emplace_back(&step, &action);
     }
   }
 }
@@ -193,17 +198,22 @@ ChartNodes::Statements ChartLowering::condition(size_t i) {
 void ChartLowering::transitions(Statements &out) {
   const auto &all = chart_.transitions;
   const std::vector<size_t> order = this->order();
+  std::map<Ident, std::vector<size_t>> before; // of the same step, in their order
   for (size_t k = 0; k < order.size(); ++k) {
     const ChartTransition &one = all[order[k]];
     std::vector<Expr *> ready;
     for (const Name &step : one.from)
       ready.push_back(make_.member(step, "x"));
-    for (size_t j = 0; j < k; ++j)
-      if (std::any_of(one.from.begin(), one.from.end(),
-                      [&](const Name &step) { return holds(all[order[j]].from, step); })) {
-        const Name before = fires(order[j]);
-        ready.push_back(make_.negated(make_.variable({before.id, before.text, one.span})));
-      }
+    std::set<size_t> alternatives;
+    for (const Name &step : one.from) {
+      std::vector<size_t> &own = before[step.id];
+      alternatives.insert(own.begin(), own.end());
+      own.push_back(k);
+    }
+    for (const size_t j : alternatives) {
+      const Name other = fires(order[j]);
+      ready.push_back(make_.negated(make_.variable({other.id, other.text, one.span})));
+    }
     const Name fire = fires(order[k]);
     declareBool(fire, Section::Temp);
     out.push_back(make_.assign(make_.variable(fire), make_.combined(BinaryOp::LogicalAnd, ready)));
@@ -217,15 +227,22 @@ void ChartLowering::transitions(Statements &out) {
 /// Leaves and enters steps after all transitions are known.
 void ChartLowering::steps(Statements &out) {
   const auto &all = chart_.transitions;
+  std::map<Ident, std::pair<std::vector<size_t>, std::vector<size_t>>> byStep;
+  for (size_t i = 0; i < all.size(); ++i) {
+    for (const Name &step : all[i].from)
+      byStep[step.id].first.push_back(i);
+    for (const Name &step : all[i].to)
+      byStep[step.id].second.push_back(i);
+  }
+  const auto firing = [&](const std::vector<size_t> &list) {
+    std::vector<Expr *> out;
+    for (const size_t i : list)
+      out.push_back(make_.variable(fires(i)));
+    return out;
+  };
   for (const ChartStep &step : chart_.steps) {
-    std::vector<Expr *> leave;
-    std::vector<Expr *> enter;
-    for (size_t i = 0; i < all.size(); ++i) {
-      if (holds(all[i].from, step.name))
-        leave.push_back(make_.variable(fires(i)));
-      if (holds(all[i].to, step.name))
-        enter.push_back(make_.variable(fires(i)));
-    }
+    const std::vector<Expr *> leave = firing(byStep[step.name.id].first);
+    const std::vector<Expr *> enter = firing(byStep[step.name.id].second);
     std::vector<Argument> arguments;
     if (!leave.empty())
       arguments.push_back(make_.argument("leave", make_.combined(BinaryOp::LogicalOr, leave)));

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -82,7 +83,8 @@ private:
   /// Whatever may stand outside of everything, once.
   void declaration();
   void giveMembers(OpenPou &open);
-  [[nodiscard]] std::vector<ast::Name> membersOf(const ast::PouDecl *node) const;
+  void findMemberNames();
+  [[nodiscard]] std::vector<std::string_view> membersOf(const ast::PouDecl *node);
 
   // Program units and their members.
   /// The END_… of a keyword; 0: it has none.
@@ -214,6 +216,8 @@ private:
   std::vector<ast::Decl *> declarations_;
   std::deque<OpenPou> pous_;
   std::vector<ast::StrayMember> strays_;
+  /// Of members by the name of their POU in lower case, as charts need it; empty: not looked for.
+  std::multimap<std::string, std::string_view> memberNames_;
   unsigned units_ = 0;            ///< POUs and members outside of them so far
   std::vector<uint16_t> closers_; ///< END_… of what is open, from outside to inside
   std::vector<MissingEnd> missing_;

@@ -2,9 +2,12 @@
 #include "compiler/syntax/chart.hpp"
 #include "compiler/syntax/file_parser.hpp"
 
+#include "compiler/source/identifier.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "compiler/syntax/token_sets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace stc {
@@ -301,18 +304,55 @@ void FileParser::chart(std::unique_ptr<Chart> &out) {
   skipChartPart(Tok::END_TRANSITION);
 }
 
-/// Of the methods, actions and properties that stand in the POU.
-std::vector<ast::Name> FileParser::membersOf(const ast::PouDecl *node) const {
-  std::vector<ast::Name> out;
-  for (const OpenPou &open : pous_) {
-    if (open.node != node)
+namespace {
+
+constexpr std::array<std::string_view, 5> kPouWords = {"PROGRAM", "FUNCTION_BLOCK", "FUNCTION",
+                                                       "CLASS", "INTERFACE"};
+constexpr std::array<std::string_view, 3> kMemberWords = {"ACTION", "METHOD", "PROPERTY"};
+constexpr std::array<std::string_view, 7> kModifiers = {
+    "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL", "FINAL", "ABSTRACT", "OVERRIDE"};
+
+} // namespace
+
+/// Members may stand after their POU, with its name or as the next thing: they are read when the
+/// chart is a part of it already.
+void FileParser::findMemberNames() {
+  const std::string_view text = scanner_.text();
+  const std::vector<StWord> words = wordsOf(text);
+  const auto at = [&](size_t i) {
+    return i < words.size() ? text.substr(words[i].begin, words[i].end - words[i].begin)
+                            : std::string_view();
+  };
+  const auto isAny = [&](size_t i, const auto &list) {
+    return std::ranges::any_of(list,
+                               [&](std::string_view one) { return equalIgnoringCase(one, at(i)); });
+  };
+  std::string owner;
+  for (size_t i = 0; i < words.size(); ++i) {
+    const bool pou = isAny(i, kPouWords);
+    if (words[i].kind != StWord::Kind::Name || (!pou && !isAny(i, kMemberWords)))
       continue;
-    for (const auto *list : {&open.methods, &open.actions})
-      for (const ast::PouDecl *one : *list)
-        out.push_back(one->name);
-    for (const ast::PropertyDecl *one : open.properties)
-      out.push_back(one->name);
+    size_t name = i + 1;
+    while (isAny(name, kModifiers))
+      ++name;
+    if (pou)
+      owner = lowerCase(at(name));
+    else if (at(name + 1) == ".")
+      memberNames_.emplace(lowerCase(at(name)), at(name + 2));
+    else
+      memberNames_.emplace(owner, at(name));
   }
+  memberNames_.emplace("", ""); // it was looked for
+}
+
+/// Of the methods, actions and properties of the POU in this file.
+std::vector<std::string_view> FileParser::membersOf(const ast::PouDecl *node) {
+  if (memberNames_.empty())
+    findMemberNames();
+  std::vector<std::string_view> out;
+  const auto [first, last] = memberNames_.equal_range(lowerCase(node->name.text));
+  for (auto each = first; each != last; ++each)
+    out.push_back(each->second);
   return out;
 }
 

@@ -1,6 +1,7 @@
 // Bodies that are instruction lists: where one begins, and its lines.
 #include "compiler/syntax/file_parser.hpp"
 
+#include "compiler/source/st_scan.hpp"
 #include "compiler/syntax/characters.hpp"
 #include "compiler/syntax/instruction_list.hpp"
 #include "compiler/syntax/token_sets.hpp"

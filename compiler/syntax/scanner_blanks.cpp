@@ -1,4 +1,5 @@
 // What stands between tokens: blanks, comments, pragmas.
+#include "compiler/source/st_scan.hpp"
 #include "compiler/syntax/characters.hpp"
 #include "compiler/syntax/scanner.hpp"
 
@@ -6,31 +7,6 @@
 #include <cstring>
 
 namespace stc {
-
-size_t commentEnd(std::string_view text, size_t place) {
-  const std::string_view rest = text.substr(std::min(place, text.size()));
-  if (rest.starts_with("//"))
-    return std::min(text.find('\n', place), text.size());
-  if (rest.starts_with("/*")) {
-    const auto end = text.find("*/", place + 2);
-    return end == std::string_view::npos ? text.size() : end + 2;
-  }
-  if (!rest.starts_with("(*"))
-    return place;
-  unsigned depth = 0;
-  do {
-    if (text.compare(place, 2, "(*") == 0) {
-      ++depth;
-      place += 2;
-    } else if (text.compare(place, 2, "*)") == 0) {
-      --depth;
-      place += 2;
-    } else {
-      ++place;
-    }
-  } while (depth != 0 && place < text.size());
-  return place;
-}
 
 bool Scanner::atLineStart(size_t place) const {
   while (place > 0 && (text_[place - 1] == ' ' || text_[place - 1] == '\t'))

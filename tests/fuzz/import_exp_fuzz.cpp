@@ -5,7 +5,7 @@
 #include "compiler/import/finish.hpp"
 #include "compiler/import/project_files.hpp"
 #include "compiler/import/report.hpp"
-#include "compiler/import/st_words.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -66,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   import::readExp("a.EXP", text.text, model);
   import::readExp("b.EXP", text.text, model); // everything is there twice
   for (const import::Object &object : model.objects)
-    for (const import::StWord &word : import::wordsOf(object.text))
+    for (const stc::StWord &word : stc::wordsOf(object.text))
       require(word.begin < word.end && word.end <= object.text.size());
   import::FinishSettings settings;
   settings.library = (size & 1U) != 0;

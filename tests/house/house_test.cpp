@@ -68,7 +68,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
        {"compiler/assets/", "compiler/toml", "compiler/codegen", "compiler/semantics",
         "compiler/syntax", "compiler/source", "runtime/bus", "runtime/io", "drivers",
         "drivers/io"}},
-      {"compiler/import/networks", {}},
+      {"compiler/import/networks", {"compiler/source"}},
       {"compiler/import", {"compiler/import/networks", "compiler/syntax", "compiler/source"}},
       {"compiler/plot", {"compiler/source"}},
       {"compiler/export",

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Imports checkouts of other people's projects, and says how far that went.
 
-usage: import_judge.py STRIDE FOLDER [--encoding NAME]
+usage: import_judge.py STRIDE FOLDER [--encoding NAME] [--each NAME]
 
 FOLDER holds a checkout in each of its subfolders; nothing is fetched. Each is imported as a whole and checked. The table is Markdown: files that were
 read, objects in them (POUs, types, lists of variables), how many of these were imported, and how many of those have no error in the check; then what
-was left out, by kind. A crash or an internal error ends with 1: an import may find losses, but never that.
+was left out, by kind. With --each, every file of that name (`plc.xml`, `*.xml`) is imported by itself, for checkouts with many projects: the numbers
+are sums. A crash or an internal error ends with 1: an import may find losses, but never that.
 """
 import argparse
 import collections
@@ -58,28 +59,54 @@ def files_with_errors(stride, project):
     return files
 
 
-def judge(stride, checkout, encoding):
-    """(row of the table, what went wrong) of a checkout."""
-    with tempfile.TemporaryDirectory() as folder:
-        project = pathlib.Path(folder) / "project"
-        options = ["--encoding", encoding] if encoding else []
-        code, out, errors = run([stride, "import", str(checkout), "-o", str(project), *options])
-        found = COUNTS.search(out)
-        if code not in (0, 1, 2) or "internal error" in errors or (found is None and code != 2):
-            return f"| {checkout.name} | | | | | crashed |", f"{checkout}: exit code {code}: {errors.strip()[-400:]}"
-        if found is None:
-            return f"| {checkout.name} | 0 | 0 | 0 | 0 | nothing that is imported |", None
-        report = (project / "import-report.md").read_text(encoding="utf-8", errors="replace")
-        objects, files, _, _, _, _ = map(int, found.groups())
-        lost = collections.Counter(kind(entry) for entry in section(report, "Left out"))
-        lost.update("file" for _ in section(report, "Files that could not be read"))
-        broken = files_with_errors(stride, project)
-        written = [entry.rsplit(": ", 1)[1] for entry in section(report, "Converted") if entry.endswith(".st")]
-        clean = sum(1 for path in written if path not in broken)
-        left = ", ".join(f"{count} {name}" for name, count in lost.most_common()) or "nothing"
+class Result:
+    """What came of one or several imports."""
+
+    def __init__(self):
+        self.files = self.objects = self.clean = 0
+        self.lost = collections.Counter()
+        self.problem = None
+
+    def add(self, stride, source, encoding):
+        """Imports a checkout or a file of it."""
+        with tempfile.TemporaryDirectory() as folder:
+            project = pathlib.Path(folder) / "project"
+            options = ["--encoding", encoding] if encoding else []
+            code, out, errors = run([stride, "import", str(source), "-o", str(project), *options])
+            found = COUNTS.search(out)
+            if code not in (0, 1, 2) or "internal error" in errors or (found is None and code != 2):
+                self.problem = f"{source}: exit code {code}: {errors.strip()[-400:]}"
+                return
+            if found is None:
+                return
+            report = (project / "import-report.md").read_text(encoding="utf-8", errors="replace")
+            objects, files, _, _, _, _ = map(int, found.groups())
+            self.objects += objects
+            self.files += files
+            self.lost.update(kind(entry) for entry in section(report, "Left out"))
+            self.lost.update("file" for _ in section(report, "Files that could not be read"))
+            broken = files_with_errors(stride, project)
+            written = [entry.rsplit(": ", 1)[1] for entry in section(report, "Converted") if entry.endswith(".st")]
+            self.clean += sum(1 for path in written if path not in broken)
+
+    def row(self, name):
+        if self.problem:
+            return f"| {name} | | | | | crashed |"
+        if not self.files:
+            return f"| {name} | 0 | 0 | 0 | 0 | nothing that is imported |"
+        left = ", ".join(f"{count} {what}" for what, count in self.lost.most_common()) or "nothing"
         # Each object that did not come is one of the losses; others are no objects.
-        missing = sum(count for name, count in lost.items() if name in ("POU", "type", "global"))
-        return f"| {checkout.name} | {files} | {objects + missing} | {objects} | {clean} | {left} |", None
+        missing = sum(count for what, count in self.lost.items() if what in ("POU", "type", "global"))
+        return f"| {name} | {self.files} | {self.objects + missing} | {self.objects} | {self.clean} | {left} |"
+
+
+def judge(stride, checkout, encoding, each):
+    """(row of the table, what went wrong) of a checkout."""
+    result = Result()
+    for source in sorted(checkout.rglob(each)) if each else [checkout]:
+        if not result.problem:
+            result.add(stride, source, encoding)
+    return result.row(checkout.name), result.problem
 
 
 def main():
@@ -87,6 +114,7 @@ def main():
     parser.add_argument("stride")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--encoding")
+    parser.add_argument("--each", metavar="NAME")
     arguments = parser.parse_args()
     checkouts = sorted(path for path in arguments.folder.iterdir() if path.is_dir() and not path.name.startswith("."))
     if not checkouts:
@@ -95,7 +123,7 @@ def main():
     print("|---|---|---|---|---|---|")
     problems = []
     for checkout in checkouts:
-        row, problem = judge(arguments.stride, checkout, arguments.encoding)
+        row, problem = judge(arguments.stride, checkout, arguments.encoding, arguments.each)
         print(row, flush=True)
         if problem:
             problems.append(problem)

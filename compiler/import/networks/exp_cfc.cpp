@@ -1,6 +1,7 @@
 #include "compiler/import/networks/exp_networks.hpp"
 #include "compiler/import/networks/exp_pins.hpp"
 #include "compiler/import/networks/text.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,7 +61,7 @@ private:
   void readSections() {
     std::vector<Section *> open;
     for (size_t at = 1; at < lines_.size() && problems_.empty(); ++at) {
-      const std::string_view text = trim(lines_[at].text);
+      const std::string_view text = trimmed(lines_[at].text);
       const size_t line = lines_[at].line;
       if (text.empty())
         continue;
@@ -94,7 +95,7 @@ private:
     const std::string key(text.substr(0, std::min(colon, text.size())));
     if (colon == std::string_view::npos || std::ranges::find(kKeys, key) == kKeys.end())
       return problem(line, unknown(text));
-    section.values[key] = trim(text.substr(colon + 1));
+    section.values[key] = trimmed(text.substr(colon + 1));
   }
 
   void addNode(const Section &element) {
@@ -128,9 +129,9 @@ private:
     if (comma == std::string::npos)
       return;
     node.x =
-        static_cast<double>(numberIn(trim(std::string_view(text).substr(0, comma))).value_or(0));
-    node.y =
-        static_cast<double>(numberIn(trim(std::string_view(text).substr(comma + 1))).value_or(0));
+        static_cast<double>(numberIn(trimmed(std::string_view(text).substr(0, comma))).value_or(0));
+    node.y = static_cast<double>(
+        numberIn(trimmed(std::string_view(text).substr(comma + 1))).value_or(0));
   }
 
   void readStorage(const Section &element, Node &node) {

@@ -3,6 +3,7 @@
 #include "compiler/import/networks/exp_pins.hpp"
 #include "compiler/import/networks/print.hpp"
 #include "compiler/import/networks/text.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +45,7 @@ private:
   }
 
   void skipBlank() {
-    while (at_ < lines_.size() && trim(lines_[at_].text).empty())
+    while (at_ < lines_.size() && trimmed(lines_[at_].text).empty())
       ++at_;
   }
   [[nodiscard]] bool atEnd() {
@@ -54,7 +55,7 @@ private:
   [[nodiscard]] std::string_view peek() {
     if (atEnd())
       refuse("the body ends in the middle of a network");
-    return trim(lines_[at_].text);
+    return trimmed(lines_[at_].text);
   }
   [[nodiscard]] size_t line() { return atEnd() ? 0 : lines_[at_].line; }
 
@@ -63,7 +64,7 @@ private:
     if (atEnd())
       return false;
     std::string_view text = peek();
-    text = trim(text.substr(0, std::min(text.find(':'), text.size())));
+    text = trimmed(text.substr(0, std::min(text.find(':'), text.size())));
     return text == word;
   }
   bool accept(std::string_view word) {
@@ -83,9 +84,9 @@ private:
       refuse(fmt::format("`{}` where `{}` is expected", peek(), word));
     std::string_view text = peek();
     const size_t colon = text.find(':');
-    text = trim(text.substr(std::min(colon, text.size() - 1) + 1));
+    text = trimmed(text.substr(std::min(colon, text.size() - 1) + 1));
     if (text.ends_with(';'))
-      text = trim(text.substr(0, text.size() - 1));
+      text = trimmed(text.substr(0, text.size() - 1));
     const std::optional<long> number = numberIn(text);
     if (!number || *number < 0 || static_cast<size_t>(*number) > kOperands)
       refuse(fmt::format("`{}`: no number of something", peek()));
@@ -132,10 +133,10 @@ private:
 
   void readComment() {
     std::string text;
-    for (; at_ < lines_.size() && trim(lines_[at_].text) != "_END_COMMENT"; ++at_)
+    for (; at_ < lines_.size() && trimmed(lines_[at_].text) != "_END_COMMENT"; ++at_)
       text += lines_[at_].text + "\n";
     expect("_END_COMMENT");
-    std::string_view inside = trim(text);
+    std::string_view inside = trimmed(text);
     if (inside.starts_with('\''))
       inside.remove_prefix(1);
     if (inside.ends_with('\''))
@@ -369,7 +370,7 @@ private:
 } // namespace
 
 bool isTranslatedBody(std::string_view line) {
-  return std::ranges::find(kBodies, trim(line)) != kBodies.end();
+  return std::ranges::find(kBodies, trimmed(line)) != kBodies.end();
 }
 
 Body readExpNetworks(const std::vector<NumberedLine> &lines, const Scope &scope,
@@ -384,7 +385,7 @@ Body readExpNetworks(const std::vector<NumberedLine> &lines, const Scope &scope,
 
 Translation translatedExpBody(const std::vector<NumberedLine> &lines, Scope &scope) {
   Translation result;
-  const bool chart = !lines.empty() && trim(lines.front().text) == "_CFC_BODY";
+  const bool chart = !lines.empty() && trimmed(lines.front().text) == "_CFC_BODY";
   if (lines.empty() || !isTranslatedBody(lines.front().text)) {
     result.problems.push_back(
         {lines.empty() ? 0 : lines.front().line,

@@ -1,4 +1,5 @@
 #include "compiler/import/networks/expression.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -117,7 +118,7 @@ Expression factored(std::span<const Factors> terms) {
 
 Expression textOf(std::string_view text) {
   Expression result;
-  result.text = trim(text);
+  result.text = trimmed(text);
   result.precedence = precedenceOf(result.text);
   return result;
 }

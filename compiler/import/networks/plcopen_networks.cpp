@@ -4,6 +4,7 @@
 #include "compiler/import/networks/exp_pins.hpp"
 #include "compiler/import/networks/text.hpp"
 #include "compiler/import/networks/xml_nodes.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@ namespace {
 using pugi::xml_node;
 
 std::string expressionIn(const xml_node &node, std::string_view name) {
-  return std::string(trim(import::textOf(child(node, name))));
+  return std::string(trimmed(import::textOf(child(node, name))));
 }
 
 Edge edgeIn(const xml_node &node) {
@@ -124,7 +125,7 @@ private:
 
   void readVendorElement(const xml_node &node) {
     const std::string type = addedText(node, "ElementType").value_or("");
-    const std::string text(trim(import::textOf(child(node, "alternativeText"))));
+    const std::string text(trimmed(import::textOf(child(node, "alternativeText"))));
     if (type == "networktitle") {
       head_.title = text;
       head_.line = lineOf_(node);

@@ -3,6 +3,7 @@
 #include "compiler/import/networks/expression.hpp"
 #include "compiler/import/networks/order.hpp"
 #include "compiler/import/networks/printer.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -61,9 +62,9 @@ private:
   void comment(std::string_view text) {
     while (!text.empty()) {
       const size_t end = std::min(text.find('\n'), text.size());
-      std::string_view line = trim(text.substr(0, end));
+      std::string_view line = trimmed(text.substr(0, end));
       if (line.starts_with("//"))
-        line = trim(line.substr(2));
+        line = trimmed(line.substr(2));
       if (!line.empty())
         writer_.line(fmt::format("// {}", line));
       text.remove_prefix(std::min(end + 1, text.size()));
@@ -408,7 +409,7 @@ private:
     const Expression condition = enabled(index, node);
     values_.beforeWriting(rootsOf(node.text));
     writer_.open(condition);
-    std::string_view rest = trim(node.text);
+    std::string_view rest = trimmed(node.text);
     while (!rest.empty()) {
       const size_t end = std::min(rest.find('\n'), rest.size());
       std::string_view line = rest.substr(0, end);

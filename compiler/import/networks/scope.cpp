@@ -1,6 +1,7 @@
 #include "compiler/import/networks/scope.hpp"
 
 #include "compiler/import/networks/text.hpp"
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -210,7 +211,7 @@ void Scope::enter(std::string_view text) {
 }
 
 const Interface *Scope::interfaceOf(std::string_view type) const {
-  std::string key = lowerCase(trim(type));
+  std::string key = lowerCase(trimmed(type));
   const auto found = interfaces_.find(key);
   if (found != interfaces_.end())
     return &found->second;
@@ -241,7 +242,7 @@ std::string Scope::elementType(const std::string &type) const {
     const std::string upper = upperCase(name);
     const size_t of = upper.find("OF ");
     if (upper.starts_with("ARRAY") && of != std::string::npos)
-      return std::string(trim(name.substr(of + 3)));
+      return std::string(trimmed(name.substr(of + 3)));
     const auto alias = aliases_.find(lowerCase(name));
     if (alias == aliases_.end())
       break;

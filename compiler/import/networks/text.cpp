@@ -1,5 +1,6 @@
 #include "compiler/import/networks/text.hpp"
 
+#include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -17,27 +18,6 @@ bool isLetter(char c) {
          static_cast<unsigned char>(c) >= 0x80;
 }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
-/// Past blanks, comments and pragmas.
-size_t skipped(std::string_view text, size_t at) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kPassed = {
-      {{"//", "\n"}, {"(*", "*)"}, {"/*", "*/"}, {"{", "}"}}};
-  while (at < text.size()) {
-    const auto *passed = std::ranges::find_if(
-        kPassed, [&](const auto &each) { return text.substr(at).starts_with(each.first); });
-    if (passed != kPassed.end()) {
-      const size_t end = text.find(passed->second, at + passed->first.size());
-      at = end == std::string_view::npos ? text.size() : end + passed->second.size();
-    } else if (isBlank(text[at])) {
-      ++at;
-    } else {
-      break;
-    }
-  }
-  return at;
-}
-
 /// End of a name, or of a literal that begins like one (`INT#5`, `T#1h2m`).
 size_t endOfName(std::string_view text, size_t at) {
   while (at < text.size() && (isLetter(text[at]) || isDigit(text[at])))
@@ -70,13 +50,6 @@ size_t endOfTyped(std::string_view text, size_t at) {
   return at;
 }
 
-size_t endOfText(std::string_view text, size_t at) {
-  const char quote = text[at++];
-  while (at < text.size() && text[at] != quote)
-    at += text[at] == '$' ? 2 : 1;
-  return std::min(at + 1, text.size());
-}
-
 constexpr std::array<std::string_view, 7> kLongSymbols = {":=", "=>", "<=", ">=", "<>", "**", ".."};
 
 constexpr std::array<std::pair<std::string_view, Precedence>, 17> kOperators = {{
@@ -101,17 +74,9 @@ constexpr std::array<std::pair<std::string_view, Precedence>, 17> kOperators = {
 
 } // namespace
 
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && isBlank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back()))
-    text.remove_suffix(1);
-  return text;
-}
-
 std::vector<Word> wordsOf(std::string_view text) {
   std::vector<Word> words;
-  for (size_t at = skipped(text, 0); at < text.size(); at = skipped(text, at)) {
+  for (size_t at = codeFrom(text); at < text.size(); at = codeFrom(text, at)) {
     size_t end = at + 1;
     Word::Kind kind = Word::Kind::Symbol;
     if (isLetter(text[at])) {
@@ -124,8 +89,8 @@ std::vector<Word> wordsOf(std::string_view text) {
     } else if (isDigit(text[at])) {
       end = endOfLiteral(text, at);
       kind = Word::Kind::Literal;
-    } else if (text[at] == '\'' || text[at] == '"') {
-      end = endOfText(text, at);
+    } else if (afterString(text, at) != at) {
+      end = afterString(text, at);
       kind = Word::Kind::Literal;
     } else if (text[at] == '%') {
       end = endOfLiteral(text, at + 1);

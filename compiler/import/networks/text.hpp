@@ -45,8 +45,6 @@ struct Word {
 [[nodiscard]] bool isVariable(std::string_view text);
 [[nodiscard]] bool isIdentifier(std::string_view text);
 
-[[nodiscard]] std::string_view trim(std::string_view text);
-
 } // namespace stc::import::networks
 
 #endif // STRIDE_COMPILER_IMPORT_NETWORKS_TEXT_HPP

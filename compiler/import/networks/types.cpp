@@ -3,6 +3,7 @@
 
 #include "compiler/import/networks/expression.hpp"
 #include "compiler/import/networks/text.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -163,7 +164,7 @@ std::string typeOfPrimary(std::string_view text, const Scope &scope, size_t dept
 }
 
 std::string typeOfWords(std::string_view text, const Scope &scope, size_t depth) {
-  text = trim(text);
+  text = trimmed(text);
   if (depth == kBracketDepth || text.empty())
     return {};
   const Precedence weakest = precedenceOf(text);
@@ -176,7 +177,7 @@ std::string typeOfWords(std::string_view text, const Scope &scope, size_t depth)
   size_t begin = 0;
   int brackets = 0;
   const auto take = [&](size_t end) {
-    const std::string_view part = trim(text.substr(begin, end - begin));
+    const std::string_view part = trimmed(text.substr(begin, end - begin));
     if (!part.empty())
       result = common(result, typeOfWords(part, scope, depth + 1));
   };

@@ -1,7 +1,6 @@
 // What is done with a model after all files are read: names, addresses, libraries.
 #include "compiler/import/finish.hpp"
-
-#include "compiler/import/st_words.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -52,6 +52,24 @@ std::string project(const std::string &items) {
          items + "</ItemGroup></Project>";
 }
 
+/// Tools put other XML beside their projects; what the user names is read all the same.
+TEST_F(InputFiles, OtherXmlInAFolderIsPassedOver) {
+  write("a/beremiz.xml", "<BeremizRoot/>");
+  EXPECT_THAT(readAll().unreadable, SizeIs(1)); // there is nothing else
+  write("b/plc.xml", "<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\"><types><dataTypes/>"
+                     "<pous><pou name=\"Main\" pouType=\"program\"><interface/></pou></pous>"
+                     "</types></project>");
+  write("c/conf.xml", "<Conf/>");
+  const Model model = readAll();
+  EXPECT_EQ(model.files, 1U);
+  EXPECT_THAT(namesOf(model), ElementsAre("Main"));
+  EXPECT_THAT(model.unreadable, IsEmpty());
+  ASSERT_THAT(model.notes, SizeIs(1));
+  EXPECT_THAT(model.notes[0], HasSubstr("2 files below"));
+  EXPECT_THAT(model.notes[0], HasSubstr("a/beremiz.xml"));
+  EXPECT_THAT(readFiles({(folder_ / "c/conf.xml").string()}, {}).unreadable, SizeIs(1));
+}
+
 TEST_F(InputFiles, FilesThatAProjectExcludesAreLeftOutOfItsFolderToo) {
   writePou("Plc/Old.TcPOU", "Old");
   writePou("Plc/POUs/Shared.TcPOU", "Shared");

@@ -1,4 +1,5 @@
 // Sequential function charts of PLCopen XML: along the lines from step to step.
+#include "compiler/import/drawn_bodies.hpp"
 #include "compiler/import/plcopen_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -9,14 +10,16 @@ namespace {
 
 using stc::import::Model;
 
+/// `rest`: elements of the POU; variables (`<localVars>`) go to its interface.
 Model read(const std::string &chart, const std::string &rest = {}) {
+  const bool variables = rest.starts_with("<localVars>");
   Model model;
   stc::import::readPlcOpen(
       "chart.xml",
       fmt::format("<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\"><types><dataTypes/>"
-                  "<pous><pou name=\"Chart\" pouType=\"program\"><interface/>{}<body><SFC>{}"
-                  "</SFC></body></pou></pous></types></project>",
-                  rest, chart),
+                  "<pous><pou name=\"Chart\" pouType=\"program\"><interface>{}</interface>{}"
+                  "<body><SFC>{}</SFC></body></pou></pous></types></project>",
+                  variables ? rest : "", variables ? "" : rest, chart),
       model);
   return model;
 }
@@ -202,6 +205,117 @@ TEST(PlcOpenChart, RefusesWhatItCannotFollow) {
         << model.objects.front().text;
     EXPECT_EQ(model.objects.front().text.find("STEP A"), std::string::npos);
   }
+}
+
+std::string block(int id, const std::string &type, const std::string &instance,
+                  const std::vector<std::pair<std::string, int>> &inputs,
+                  const std::string &output = "OUT") {
+  std::string pins;
+  for (const auto &[name, from] : inputs)
+    pins += fmt::format("<variable formalParameter=\"{}\"><connectionPointIn><connection "
+                        "refLocalId=\"{}\"/></connectionPointIn></variable>",
+                        name, from);
+  return fmt::format("<block localId=\"{}\" typeName=\"{}\"{}><position x=\"0\" y=\"{}\"/>"
+                     "<inputVariables>{}</inputVariables><outputVariables><variable "
+                     "formalParameter=\"{}\"><connectionPointOut/></variable></outputVariables>"
+                     "</block>",
+                     id, type, instance.empty() ? "" : " instanceName=\"" + instance + "\"", id,
+                     pins, output);
+}
+
+std::string variable(int id, const std::string &text) {
+  return fmt::format("<inVariable localId=\"{}\"><position x=\"0\" y=\"{}\"/><expression>{}"
+                     "</expression></inVariable>",
+                     id, id, text);
+}
+
+std::string lineFrom(int id, const std::string &pin = {}) {
+  return fmt::format("<connectionPointIn><connection refLocalId=\"{}\"{}/></connectionPointIn>", id,
+                     pin.empty() ? "" : " formalParameter=\"" + pin + "\"");
+}
+
+/// The text of the only object, after drawn bodies have become statements.
+std::string translated(Model &model) {
+  stc::import::translateDrawnBodies(model, {});
+  return model.objects.front().text;
+}
+
+TEST(PlcOpenChart, MakesExpressionsOfDrawnOperators) {
+  const std::string drawn = variable(40, "a") + variable(41, "n + 1") + variable(42, "7") +
+                            block(43, "LT", {}, {{"IN1", 41}, {"IN2", 42}}) +
+                            block(44, "AND", {}, {{"IN1", 40}, {"IN2", 43}});
+  const std::string chart = step(1, "Start", {11}, true) + drawn;
+  EXPECT_NE(read(chart + transition(11, 1, lineFrom(44, "OUT")))
+                .objects.front()
+                .text.find(" := a AND n + 1 < 7;\n"),
+            std::string::npos);
+  const std::string negated =
+      fmt::format("<transition localId=\"11\"><connectionPointIn><connection refLocalId=\"1\"/>"
+                  "</connectionPointIn><condition negated=\"true\">{}</condition></transition>",
+                  lineFrom(44, "OUT"));
+  EXPECT_NE(read(chart + negated).objects.front().text.find(" := NOT (a AND n + 1 < 7);\n"),
+            std::string::npos);
+}
+
+/// Two transitions read one timer: it is called once. `Conditions` and `Condition1` are taken.
+TEST(PlcOpenChart, ComputesDrawnBlocksInAnAction) {
+  Model model =
+      read(step(1, "Start", {12}, true) + step(2, "Next", {11}) + variable(40, "Conditions") +
+               variable(41, "T#5ms") + block(42, "TON", "Wait", {{"IN", 40}, {"PT", 41}}, "Q") +
+               block(43, "NOT", {}, {{"IN", 42}}) + transition(11, 1, lineFrom(42, "Q")) +
+               transition(12, 2, lineFrom(43, "OUT")),
+           "<localVars><variable name=\"condition1\"><type><BOOL/></type></variable></localVars>");
+  EXPECT_EQ(translated(model),
+            "PROGRAM Chart\nVAR\n  condition1 : BOOL;\nEND_VAR\n"
+            "VAR\n  Condition1_1 : BOOL;\n  Condition2 : BOOL;\nEND_VAR\n\n"
+            "INITIAL_STEP Start:\n  Conditions_1(S);\nEND_STEP\n"
+            "TRANSITION FROM Start TO Next := Condition1_1;\nEND_TRANSITION\n"
+            "STEP Next:\nEND_STEP\nTRANSITION FROM Next TO Start := Condition2;\n"
+            "END_TRANSITION\n\nACTION Conditions_1:\nWait(IN := Conditions, PT := T#5ms);\n"
+            "Condition1_1 := Wait.Q;\nCondition2 := NOT Wait.Q;\nEND_ACTION\nEND_PROGRAM\n");
+  EXPECT_TRUE(model.leftOut.empty());
+}
+
+TEST(PlcOpenChart, ReadsDrawnBodiesOfTransitions) {
+  const auto drawn = [](const std::string &target) {
+    return "<transitions><transition name=\"Stop\"><body><FBD>" + variable(1, "go") +
+           block(2, "NOT", {}, {{"IN", 1}}) + "<outVariable localId=\"3\">" + lineFrom(2, "OUT") +
+           "<expression>" + target + "</expression></outVariable></FBD></body></transition>" +
+           "</transitions>";
+  };
+  const std::string chart = step(1, "Start", {11}, true) + transition(11, 1,
+                                                                      "<reference "
+                                                                      "name=\"Stop\"/>");
+  EXPECT_NE(read(chart, drawn("STOP"))
+                .objects.front()
+                .text.find("TRANSITION Stop FROM Start TO Start := NOT go;\n"),
+            std::string::npos);
+  const Model other = read(chart, drawn("Halt"));
+  ASSERT_EQ(other.leftOut.size(), 1U);
+  EXPECT_NE(other.leftOut[0].text.find("nothing in it is assigned to `Stop`"), std::string::npos);
+}
+
+TEST(PlcOpenChart, DetectsEdgesOfContacts) {
+  Model model = withCondition(contact(40, "a", {90}, " edge=\"falling\""), 40);
+  const std::string text = translated(model);
+  EXPECT_NE(text.find("  a_falling : F_TRIG;\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("a_falling(CLK := a);\nCondition1 := a_falling.Q;\n"), std::string::npos)
+      << text;
+}
+
+/// CODESYS draws a line from a jump to where the branch would end.
+TEST(PlcOpenChart, JumpsEndBranches) {
+  const Model model =
+      read(step(1, "Start", {}, true) + transition(11, 1, inlineText("a")) +
+           "<jumpStep localId=\"12\" targetName=\"Start\">" + lineFrom(11) + "</jumpStep>" +
+           transition(13, 1, inlineText("b"), 9) + element("selectionConvergence", 14, {12, 13}) +
+           step(2, "Last", {14}) + transition(15, 2, inlineText("c")) +
+           "<jumpStep localId=\"16\" targetName=\"Start\">" + lineFrom(15) + "</jumpStep>");
+  EXPECT_TRUE(model.leftOut.empty());
+  EXPECT_NE(model.objects.front().text.find("TRANSITION FROM Start TO Start := a;"),
+            std::string::npos);
+  EXPECT_NE(model.objects.front().text.find("TRANSITION FROM Start TO Last := b;"),
+            std::string::npos);
 }
 
 TEST(PlcOpenChart, EndsOnCirclesOfDivergences) {

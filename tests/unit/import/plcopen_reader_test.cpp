@@ -1,5 +1,6 @@
 // PLCopen XML: what becomes of types, POUs, tasks, and of what is not known.
 #include "compiler/import/drawn_bodies.hpp"
+#include "compiler/import/libraries.hpp"
 #include "compiler/import/names.hpp"
 #include "compiler/import/plcopen_reader.hpp"
 
@@ -365,6 +366,63 @@ TEST(PlcOpen, GivesDrawnBodiesToTheTranslation) {
   EXPECT_EQ(textOf(model, "Q"), "PROGRAM Q\nVAR\n  a : INT;\n  b : INT;\nEND_VAR\n\nb := a;\n"
                                 "END_PROGRAM\n");
   EXPECT_EQ(remarks(model.leftOut), "");
+}
+
+TEST(PlcOpen, DropsWhatIsExcludedFromTheBuild) {
+  const auto pou = [](const std::string &name, const std::string &exclude) {
+    return fmt::format("<pou name=\"{}\" pouType=\"program\"><interface/>{}{}</pou>", name,
+                       body("n := 1;"),
+                       data("<BuildProperties><ExcludeFromBuild>" + exclude +
+                            "</ExcludeFromBuild><LinkAlways>true</LinkAlways></BuildProperties>"));
+  };
+  const Model model = read(project({}, pou("Used", "false") + pou("Old", "true")));
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(model.objects[0].name, "Used");
+  EXPECT_TRUE(model.leftOut.empty()) << remarks(model.leftOut);
+  ASSERT_EQ(model.changed.size(), 1U);
+  EXPECT_EQ(model.changed[0].object, "Old");
+}
+
+TEST(PlcOpen, ReadsInheritanceOfInterfacesWithAndWithoutAddData) {
+  const auto interface = [](const std::string &name, const std::string &content) {
+    return data("<Interface name=\"" + name + "\">" + content + "</Interface>");
+  };
+  const std::string extends = "<Inheritance><Extends>IBase</Extends></Inheritance>";
+  const Model model =
+      read(project({}, {}, {}, interface("IOld", extends) + interface("INew", data(extends))));
+  EXPECT_EQ(textOf(model, "IOld"), "INTERFACE IOld EXTENDS IBase\nEND_INTERFACE\n");
+  EXPECT_EQ(textOf(model, "INew"), "INTERFACE INew EXTENDS IBase\nEND_INTERFACE\n");
+  EXPECT_TRUE(model.leftOut.empty()) << remarks(model.leftOut);
+}
+
+TEST(PlcOpen, TakesCommentsApartThatDoNotNest) {
+  const auto text = [](const std::string &statements) {
+    return textOf(read(project({}, "<pou name=\"P\" pouType=\"program\"><interface/>" +
+                                       body(statements) + "</pou>")),
+                  "P");
+  };
+  EXPECT_NE(text("(* old (* n := 2; *)\nn := 1;").find("(* old ( * n := 2; *)\nn := 1;"),
+            std::string::npos);
+  EXPECT_NE(text("(* old (* n := 2; *) *)\nn := 1;").find("(* old (* n := 2; *) *)\n"),
+            std::string::npos);
+  EXPECT_NE(text("n := 1; (* no end").find("(* no end\n"), std::string::npos);
+}
+
+TEST(PlcOpen, KnowsPlaceholdersOfLibraries) {
+  const Model model = read(project({}, {}, {},
+                                   data("<Libraries><Library Name=\"#CAA Memory\"/><Library "
+                                        "Name=\"Util, 3.5.1.0 (System)\"/></Libraries>")));
+  ASSERT_EQ(model.libraries.size(), 2U);
+  EXPECT_EQ(model.libraries[0].name, "CAA Memory");
+  EXPECT_EQ(model.libraries[1].name, "Util");
+  EXPECT_EQ(model.libraries[1].version, "3.5.1.0");
+  Model looked = model;
+  stc::import::OwnLibraries own;
+  own.isLibrary = [](std::string_view name) { return name == "caa_memory"; };
+  lookUpLibraries(looked, own);
+  ASSERT_EQ(looked.changed.size(), 1U);
+  EXPECT_EQ(looked.changed[0].object, "library CAA Memory");
+  ASSERT_EQ(looked.notes.size(), 1U); // Util
 }
 
 TEST(PlcOpen, RefusesWhatIsNoProject) {

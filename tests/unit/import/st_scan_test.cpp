@@ -1,10 +1,12 @@
-// Finding code between comments, pragmas and texts.
-#include "compiler/import/st_scan.hpp"
+// Finding code between comments, pragmas and texts, and making texts for it.
+#include "compiler/import/texts.hpp"
+#include "compiler/source/st_scan.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
+using namespace stc;
 using namespace stc::import;
 
 TEST(StScan, FindsTheFirstWord) {
@@ -14,6 +16,33 @@ TEST(StScan, FindsTheFirstWord) {
   EXPECT_EQ(firstKeyword("(* open"), "");
   EXPECT_EQ(firstKeyword("{open"), "");
   EXPECT_EQ(firstKeyword(""), "");
+}
+
+/// As the compiler reads them: `(*` nests in `(*` only.
+TEST(StScan, NestsOneKindOfComments) {
+  EXPECT_EQ(firstKeyword("/* a /* b */ FUNCTION"), "FUNCTION");
+  EXPECT_EQ(firstKeyword("/* a (* b */ FUNCTION"), "FUNCTION");
+  EXPECT_EQ(firstKeyword("(* a /* b *) FUNCTION"), "FUNCTION");
+  EXPECT_EQ(firstKeyword("(* a // b *) FUNCTION"), "FUNCTION");
+  EXPECT_EQ(firstKeyword("(* a (* b *) FUNCTION"), "");
+  EXPECT_EQ(commentEnd("x // a", 2), 6U);
+  EXPECT_EQ(commentEnd("{a}", 0), 0U);
+}
+
+TEST(StScan, EndsPragmasAsTheCompilerDoes) {
+  EXPECT_EQ(afterPragma("{a 'b}' c} d", 0), 10U);
+  EXPECT_EQ(afterPragma("{it's} d", 0), 6U);
+  EXPECT_EQ(afterPragma("{it's\n'} d", 0), 8U);
+  EXPECT_EQ(afterPragma("{open", 0), 5U);
+  EXPECT_EQ(afterPragma("a", 0), 0U);
+}
+
+TEST(StScan, CutsCodeIntoWords) {
+  const std::string_view text = "/* /* */ a1 := 16#FF + b(*x*)%IX0.3 'y z' {w} // v";
+  std::string words;
+  for (const StWord &each : wordsOf(text))
+    words += std::string(text.substr(each.begin, each.end - each.begin)) + "|";
+  EXPECT_EQ(words, "a1|:|=|16#FF|+|b|%IX0.3|");
 }
 
 TEST(StScan, StepsOverTexts) {

@@ -1,0 +1,68 @@
+// Textual charts in their parts.
+#include "compiler/export/chart_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace stc::exporting {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(ChartText, ReadsStepsAndActions) {
+  const auto chart = chartText("// First\nINITIAL_STEP A: (* in it *)\n  Work(l, times[1, (2)]); "
+                               "Note(); Rest; Store(S0);\nEND_STEP\nstep b: end_step // last\n");
+  ASSERT_TRUE(chart);
+  ASSERT_EQ(chart->steps.size(), 2U);
+  EXPECT_TRUE(chart->steps[0].initial);
+  EXPECT_FALSE(chart->steps[1].initial);
+  EXPECT_EQ(chart->steps[0].comment, "First\nin it\n");
+  EXPECT_EQ(chart->comment, "last\n");
+  const std::vector<ChartActionText> &actions = chart->steps[0].actions;
+  ASSERT_EQ(actions.size(), 4U);
+  EXPECT_EQ(actions[0].qualifier, "L");
+  EXPECT_EQ(actions[0].time, "times[1, (2)]");
+  EXPECT_EQ(actions[1].name, "Note");
+  EXPECT_EQ(actions[2].qualifier, "N");
+  EXPECT_EQ(actions[3].qualifier, "S");
+}
+
+TEST(ChartText, ReadsTransitions) {
+  const auto chart =
+      chartText("STEP A: END_STEP STEP B: END_STEP STEP from: END_STEP\n"
+                "TRANSITION FROM (A, B) TO from := t = 'x;y' OR (* or *) c; // why\n"
+                "END_TRANSITION\n"
+                "TRANSITION from (PRIORITY := 12) FROM from TO (A, B):\n  LD a (* here *)\n"
+                "END_TRANSITION\n"
+                "TRANSITION FROM FROM A TO B := 'x' = t; END_TRANSITION");
+  ASSERT_TRUE(chart);
+  ASSERT_EQ(chart->transitions.size(), 3U);
+  const ChartTransitionText &first = chart->transitions[0];
+  EXPECT_EQ(first.name, "");
+  EXPECT_THAT(first.from, ElementsAre("A", "B"));
+  EXPECT_THAT(first.to, ElementsAre("from"));
+  EXPECT_EQ(first.condition, "t = 'x;y' OR (* or *) c");
+  EXPECT_EQ(first.comment, "why\n");
+  const ChartTransitionText &second = chart->transitions[1];
+  EXPECT_EQ(second.name, "from");
+  EXPECT_EQ(second.priority, "12");
+  EXPECT_TRUE(second.instructions);
+  EXPECT_EQ(second.condition, "LD a (* here *)\n");
+  EXPECT_THAT(second.to, ElementsAre("A", "B"));
+  EXPECT_EQ(chart->transitions[2].name, "FROM");
+  EXPECT_EQ(chart->transitions[2].condition, "'x' = t");
+}
+
+/// These stay text in the export.
+TEST(ChartText, LeavesWhatItCannotSay) {
+  EXPECT_FALSE(chartText(""));
+  EXPECT_FALSE(chartText("step := 1;"));
+  EXPECT_FALSE(chartText("STEP A: END_STEP x := 1;"));
+  EXPECT_FALSE(chartText("STEP A: {warning 'w'} END_STEP"));
+  EXPECT_FALSE(chartText("STEP A: Work(L, T#1s"));
+  EXPECT_FALSE(chartText("STEP A: END_STEP TRANSITION (PRIORITY := 16#2) FROM A TO A := b; "
+                         "END_TRANSITION"));
+}
+
+} // namespace
+} // namespace stc::exporting
