@@ -28,11 +28,11 @@ inline void addReal(std::vector<int16_t> &words, float value) {
 
 inline std::vector<int16_t> pathWords(const std::vector<PathPoint> &points, int axes = 2) {
   std::vector<int16_t> words{static_cast<int16_t>(points.size()),
-                                  static_cast<int16_t>(axes),
-                                  static_cast<int16_t>(axes == 2 ? 17 : 19),
-                                  0,
-                                  0,
-                                  0};
+                             static_cast<int16_t>(axes),
+                             static_cast<int16_t>(axes == 2 ? 17 : 19),
+                             0,
+                             0,
+                             0};
   for (int i = 0; i < axes; ++i)
     words.push_back(static_cast<int16_t>(1 + i));
   for (const PathPoint &point : points) {
@@ -42,8 +42,7 @@ inline std::vector<int16_t> pathWords(const std::vector<PathPoint> &points, int 
       addReal(words, point.z);
     for (const float value : {point.speed, point.parF1, point.parF2, point.parF3})
       addReal(words, value);
-    for (const int16_t value :
-         {point.type, point.parW1, point.parW2, point.parW3, point.parW4})
+    for (const int16_t value : {point.type, point.parW1, point.parW2, point.parW3, point.parW4})
       words.push_back(value);
   }
   return words;
