@@ -127,7 +127,8 @@ statement
   | whileStatement
   | repeatStatement
   | tryStatement
-  | ( EXIT | CONTINUE | RETURN ) SEMICOLON
+  | ( EXIT | CONTINUE ) SEMICOLON
+  | RETURN ( LPAREN condition RPAREN )? SEMICOLON
   | JMP IDENT SEMICOLON
   | JUMP_LABEL IDENT COLON
   ;

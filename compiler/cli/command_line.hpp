@@ -5,6 +5,7 @@
 
 #include "compiler/cli/can_command.hpp"
 #include "compiler/cli/commands.hpp"
+#include "compiler/cli/import_command.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -32,9 +33,11 @@ struct Invocation {
   TestOptions tests;
   FormatOptions formatting;
   PlotOptions plot;
+  ExportOptions exporting;
   CamOptions cams;
   CncOptions cnc;
   CanOptions can;
+  ImportOptions import;
   std::string code;
   bool listCodes = false;
   std::string topic;
@@ -50,6 +53,10 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build);
 void declareRuns(CLI::App &app, Invocation &call);
 /// stride completion
 void declareCompletion(CLI::App &app, Invocation &call);
+/// stride import
+void declareImports(CLI::App &app, Invocation &call);
+/// The commands below `stride export`.
+void declareExports(CLI::App &app, Invocation &call);
 /// The commands below `stride library`.
 void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.

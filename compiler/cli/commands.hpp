@@ -101,6 +101,14 @@ int formatCommand(const FormatOptions &options);
 int documentCommand(const ProjectOptions &options, bool library, const std::string &figures,
                     const std::string &out);
 
+/// What `stride export plcopen` writes.
+struct ExportOptions {
+  std::string out;             ///< file; empty: NAME.xml of the project in the current folder
+  std::string schema = "2.01"; ///< version of TC6: 2.0 or 2.01
+};
+/// Writes the project as PLCopen XML.
+int exportPlcOpenCommand(const ProjectOptions &options, const ExportOptions &what);
+
 /// What `stride plot` draws.
 struct PlotOptions {
   std::string trace;               ///< CSV file

@@ -239,9 +239,9 @@ int run(int argc, char **argv) {
   Invocation call;
   // In the order in which the overview shows them.
   for (const auto declare :
-       {declareNew, declareCheck, declareBuild, declareRuns, declareDoc, declareTest, declareFmt,
-        declarePlot, declareCams, declareCnc, declareCan, declareLibraries, declareExplain,
-        declareCompletion, declareHelp})
+       {declareNew, declareImports, declareCheck, declareBuild, declareRuns, declareDoc,
+        declareTest, declareFmt, declarePlot, declareExports, declareCams, declareCnc, declareCan,
+        declareLibraries, declareExplain, declareCompletion, declareHelp})
     declare(app, call);
   try {
     app.parse(argumentsOf(argc, argv));

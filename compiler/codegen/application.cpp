@@ -219,8 +219,36 @@ private:
     out += "}\n";
   }
 
+  /// Lists of constants, then other lists of global variables, then what may read both.
+  static unsigned initRank(const Root &root) {
+    if (root.symbol->kind != SymbolKind::Globals)
+      return 2;
+    const auto &variables = static_cast<const GlobalsSymbol *>(root.symbol)->variables;
+    return std::all_of(variables.begin(), variables.end(),
+                       [](const VarSymbol *v) { return v->isConstant; })
+               ? 0
+               : 1;
+  }
+
+  /// What needs it, in the order of docs/language.md: as members_ within one library and rank.
+  std::vector<const Member *> initialized() const {
+    std::vector<const Member *> result;
+    for (auto begin = members_.begin(); begin != members_.end();) {
+      const auto end = std::find_if(begin, members_.end(), [&](const Member &m) {
+        return m.root.symbol->library != begin->root.symbol->library;
+      });
+      for (unsigned rank = 0; rank <= 2; ++rank)
+        for (auto m = begin; m != end; ++m)
+          if (initRank(m->root) == rank && rootNeedsInit(c_, m->root))
+            result.push_back(&*m);
+      begin = end;
+    }
+    return result;
+  }
+
   void init(std::string &out) {
-    out += "\n// Libraries first, then files by path, then in the order of declaration.\nvoid "
+    out += "\n// Libraries first; constants, global variables, the rest; files by path; as "
+           "declared.\nvoid "
            "init__(::stride::Ctx *";
     std::string body = copies_.begin();
     if (c_.program.settings.softMotion3)
@@ -237,10 +265,8 @@ private:
                 (slot.decl != nullptr ? std::string(slot.decl->address->text) : "a free place") +
                 "\n";
     }
-    for (const Member &m : members_) {
-      if (rootNeedsInit(c_, m.root))
-        body += "  app__(ctx__)." + m.name + ".init__(*ctx__);\n";
-    }
+    for (const Member *m : initialized())
+      body += "  app__(ctx__)." + m->name + ".init__(*ctx__);\n";
     if (hasConfiguredValues(c_.program))
       body += "  ::st::user::configure__(*ctx__);\n";
     if (!copies_.empty())

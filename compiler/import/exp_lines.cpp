@@ -12,6 +12,24 @@ bool isWordCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
+/// The next comma that stands in no brackets and no text.
+size_t endOfField(std::string_view fields) {
+  int depth = 0;
+  bool inText = false;
+  for (size_t i = 0; i < fields.size(); ++i) {
+    const char c = fields[i];
+    if (c == '\'')
+      inText = !inText;
+    else if (!inText && (c == '(' || c == '['))
+      ++depth;
+    else if (!inText && (c == ')' || c == ']'))
+      --depth;
+    else if (!inText && depth == 0 && c == ',')
+      return i;
+  }
+  return fields.size();
+}
+
 } // namespace
 
 std::vector<std::string_view> linesOf(std::string_view text) {
@@ -42,7 +60,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string_view firstWord(std::string_view line) {
-  line = trimmed(line);
+  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
   const auto *end = std::find_if_not(line.begin(), line.end(), isWordCharacter);
   return line.substr(0, static_cast<size_t>(end - line.begin()));
 }
@@ -94,7 +112,7 @@ Task taskOf(std::string_view line) {
   std::string_view fields = line.substr(std::min(open + 1, line.size()));
   fields = fields.substr(0, std::min(fields.rfind(')'), fields.size()));
   while (!fields.empty()) {
-    const size_t end = std::min(fields.find(','), fields.size());
+    const size_t end = endOfField(fields);
     const std::string_view field = trimmed(fields.substr(0, end));
     const std::string_view key = firstWord(field);
     const size_t sign = field.find(":=");

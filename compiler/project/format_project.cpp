@@ -35,8 +35,8 @@ std::string toLatin1(std::string_view text) {
 
 /// What there is to format in a file.
 struct Formattable {
-  bool wellFormed;      ///< free of syntax errors; an `{error …}` is none
-  bool hasInstructions; ///< the lines of an instruction list must stay as they are
+  bool wellFormed; ///< free of syntax errors; an `{error …}` is none
+  bool otherText;  ///< the lines of instruction lists and charts must stay as they are
 };
 
 Formattable formattable(const SourceFile &source, const ParseOptions &options) {
@@ -48,7 +48,7 @@ Formattable formattable(const SourceFile &source, const ParseOptions &options) {
       std::none_of(found.all().begin(), found.all().end(), [](const Diagnostic &diagnostic) {
         return diagnostic.severity == Severity::Error && diagnostic.code != Code::ErrorPragma;
       });
-  return {wellFormed, file->hasInstructions};
+  return {wellFormed, file->hasInstructions || file->hasChart};
 }
 
 } // namespace
@@ -111,7 +111,7 @@ void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settin
       parse(source, interner, arena, diagnostics, &options);
       continue;
     }
-    if (what.hasInstructions)
+    if (what.otherText)
       continue;
     std::optional<std::string> text = format(source, settings.style);
     if (!text)

@@ -20,6 +20,9 @@ fs::path absoluteFrom(const char *variable) {
   return value != nullptr && *value == '/' ? fs::path(value) : fs::path();
 }
 
+/// Libraries of Stride that stand in for those of TwinCAT.
+constexpr std::string_view kOtherSystems = "Tc2_";
+
 std::string listed(const std::vector<std::string> &names) {
   std::string all;
   for (const std::string &name : names)
@@ -123,6 +126,9 @@ std::optional<LibrarySource::Use> LibraryGraph::use(const LibraryUse &wanted,
   }
   if (const std::optional<std::string> standard = standardLibrary(wanted)) {
     takeLibraryValues(program_, wanted, *standard);
+    // Its names are those of Stride's own blocks: they hide these where they are asked for.
+    if (by == nullptr && standard->starts_with(kOtherSystems))
+      return LibrarySource::Use{*standard, *standard};
     return std::nullopt;
   }
   const std::optional<fs::path> folder = folderOf(wanted, by);
@@ -333,7 +339,7 @@ bool LibraryGraph::readFiles(FoundLibrary &library) {
 void LibraryGraph::checkNames(const FoundLibrary &found) {
   const std::string help = "give one of them another name in the project: `namespace = \"" +
                            found.name + "2\"` in its [[library]]";
-  if (index_.isLibrary(lowerCase(found.name)))
+  if (index_.isReserved(lowerCase(found.name)))
     program_.diagnostics
         .report(Code::LibraryNamespace, found.nameSpan,
                 fmt::format("the namespace `{}` is that of a library of Stride", found.name),

@@ -42,6 +42,7 @@ public:
 
   [[nodiscard]] std::vector<Entry> find(std::string_view lowerName) const override;
   [[nodiscard]] bool isLibrary(std::string_view lowerName) const override;
+  [[nodiscard]] bool isReserved(std::string_view lowerName) const override;
   [[nodiscard]] bool answersTo(std::string_view library, std::string_view lowerName) const override;
   [[nodiscard]] std::vector<Name> names() const override;
   [[nodiscard]] std::vector<Entry> files(std::string_view library) const override;

@@ -85,13 +85,20 @@ public:
     /// Its names are seen with the library's name in front only (`SMCB.Line`): they are words that
     /// programs use for other things.
     bool qualifiedOnly = false;
+    /// Made so that programs of other systems run. Others may have its names, and projects a
+    /// library of its name.
+    bool isForeign = false;
   };
   /// The files that declare `lowerName` (a POU, type, global variable, or enumerator), best first:
   /// at most one per library.
   [[nodiscard]] virtual std::vector<Entry> find(std::string_view lowerName) const = 0;
   [[nodiscard]] virtual bool isLibrary(std::string_view lowerName) const = 0;
-  /// Whether `library` goes by this name: its own, or the one that SoftMotion 3 gives to what it
-  /// holds. Several libraries may go by one name.
+  /// No library of a project may go by this name.
+  [[nodiscard]] virtual bool isReserved(std::string_view lowerName) const {
+    return isLibrary(lowerName);
+  }
+  /// Whether `library` goes by this name: its own, or the one that SoftMotion 3, CODESYS V3 or
+  /// TwinCAT 3 gives to what it holds. Several libraries may go by one name.
   [[nodiscard]] virtual bool answersTo(std::string_view library,
                                        std::string_view lowerName) const = 0;
   enum class Kind : uint8_t { Function, Type, Variable, Enumerator }; ///< Type: blocks, too

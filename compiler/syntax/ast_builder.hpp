@@ -95,6 +95,7 @@ private:
   ast::Stmt *statement(Context *context);
   ast::Stmt *wordStatement(const Context *context);
   ast::Stmt *jump(const Context *context);
+  ast::Stmt *conditionalReturn(Context *context);
   ast::Stmt *simpleStatement(Context *context);
   ast::Stmt *assignment(ast::AssignOp op, const Token &sign,
                         const std::vector<ast::Expr *> &targets, ast::Expr *value);
@@ -106,6 +107,9 @@ private:
   ast::Stmt *forStatement(Context *context);
   ast::Stmt *tryStatement(Context *context);
   ast::Expr *condition(Context *context);
+  bool assignsCondition(Context *context);
+  ast::IfBranch branch(Context *context);
+  ast::IfStmt *ifFrom(Context *context, size_t at);
 
   // expressions
   ast::Expr *expression(Context *context);
@@ -154,6 +158,7 @@ private:
   Arena &arena_;
   Diagnostics &diagnostics_;
   LiteralReader literals_;
+  std::vector<ast::Stmt *> before_; ///< what the statement being built begins with
 };
 
 } // namespace stc

@@ -39,6 +39,8 @@ void AstBuilder::statements(Grammar::StatementsContext *context, std::vector<Stm
     Stmt *node = statement(child(context, i));
     if (node == nullptr)
       continue;
+    out.insert(out.end(), before_.begin(), before_.end());
+    before_.clear();
     // `t : TON;` is no label with a statement that does nothing.
     if (node->kind == StmtKind::Call && as<CallStmt>(node)->expr->kind == ExprKind::Name &&
         !out.empty() && out.back()->kind == StmtKind::Label) {
@@ -104,6 +106,19 @@ Stmt *AstBuilder::wordStatement(const Context *context) {
   return node;
 }
 
+/// `RETURN(x)` is IF x THEN RETURN; END_IF.
+Stmt *AstBuilder::conditionalReturn(Context *context) {
+  auto *leave = arena_.make<Stmt>();
+  leave->kind = StmtKind::Return;
+  leave->span = span(context);
+  IfBranch only = branch(child(context, 0));
+  only.body = arena_.copy(std::vector<Stmt *>{leave});
+  auto *node = arena_.make<IfStmt>();
+  node->span = leave->span;
+  node->branches = arena_.copy(std::vector<IfBranch>{only});
+  return node;
+}
+
 Stmt *AstBuilder::statement(Context *context) {
   if (failed(context))
     return nullptr;
@@ -121,6 +136,8 @@ Stmt *AstBuilder::statement(Context *context) {
     return forStatement(inner);
   case Grammar::RuleTryStatement:
     return tryStatement(inner);
+  case Grammar::RuleCondition:
+    return conditionalReturn(context);
   case Grammar::RuleWhileStatement: {
     auto *node = arena_.make<WhileStmt>();
     node->span = span(inner);
@@ -236,26 +253,66 @@ Expr *AstBuilder::condition(Context *context) {
   return error(span(context));
 }
 
-Stmt *AstBuilder::ifStatement(Context *context) {
+/// `x := y` with a place that is found twice without being evaluated twice.
+bool AstBuilder::assignsCondition(Context *context) {
+  if (failed(context) || context->children.size() != 2)
+    return false;
+  const Context *target = child(context, 0);
+  for (size_t i = first(target); i <= last(target); ++i) {
+    if (const uint16_t type = token(i).type;
+        type != Tok::IDENT && type != Tok::DOT && type != Tok::CARET)
+      return false;
+  }
+  return true;
+}
+
+/// A branch of IF without its body. Where its condition is assigned, the assignment goes into
+/// `before_`.
+IfBranch AstBuilder::branch(Context *context) {
+  IfBranch out;
+  if (!assignsCondition(context)) {
+    out.condition = condition(context);
+    return out;
+  }
+  const Token &sign = token(last(child(context, 0)) + 1);
+  Stmt *assigned = assignment(AssignOp::Assign, sign, {expression(child(context, 0))},
+                              expression(child(context, 1)));
+  before_.push_back(assigned);
+  out.assigned = as<AssignStmt>(assigned);
+  out.condition = expression(child(context, 0));
+  return out;
+}
+
+/// IF from its branch at `at` on. An ELSIF whose condition is assigned is an IF in ELSE.
+IfStmt *AstBuilder::ifFrom(Context *context, size_t at) {
   auto *node = arena_.make<IfStmt>();
-  node->span = span(context);
+  node->span = at == 0 ? span(context) : span(child(context, at)).to(span(context));
   const size_t count = context->children.size();
   std::vector<IfBranch> branches;
+  std::vector<Stmt *> before;
   branches.reserve(count / 2);
-  size_t i = 0;
-  for (; i + 1 < count; i += 2) {
-    IfBranch branch;
-    branch.condition = condition(child(context, i));
-    branch.body = block(child(context, i + 1));
-    branches.push_back(branch);
+  size_t i = at;
+  for (; i + 1 < count && (i == at || !assignsCondition(child(context, i))); i += 2) {
+    IfBranch one = branch(child(context, i));
+    before.insert(before.end(), before_.begin(), before_.end());
+    before_.clear();
+    one.body = block(child(context, i + 1));
+    branches.push_back(one);
   }
   node->branches = arena_.copy(branches);
-  if (i < count) {
-    node->hasElse = true;
+  node->hasElse = i < count;
+  if (i + 1 < count) {
+    IfStmt *rest = ifFrom(context, i);
+    before_.push_back(rest);
+    node->elseBody = arena_.copy(before_);
+  } else if (i < count) {
     node->elseBody = block(child(context, i));
   }
+  before_ = std::move(before);
   return node;
 }
+
+Stmt *AstBuilder::ifStatement(Context *context) { return ifFrom(context, 0); }
 
 Stmt *AstBuilder::caseStatement(Context *context) {
   auto *node = arena_.make<CaseStmt>();

@@ -251,6 +251,7 @@ struct File {
   std::span<Decl *> declarations;
   std::span<StrayMember> strayMembers; ///< for attachMembers()
   bool hasInstructions = false;        ///< some body is an instruction list
+  bool hasChart = false;               ///< some body is a sequential function chart
 };
 
 } // namespace stc::ast

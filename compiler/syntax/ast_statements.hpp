@@ -46,6 +46,8 @@ struct CallStmt : Node<Stmt, StmtKind::Call> {
 
 struct IfBranch {
   Expr *condition = nullptr;
+  /// `IF a := b THEN` is `a := b; IF a THEN`: the assignment right before; null: there is none.
+  const AssignStmt *assigned = nullptr;
   Block body;
 };
 
@@ -53,6 +55,9 @@ struct IfStmt : Node<Stmt, StmtKind::If> {
   std::span<IfBranch> branches; ///< IF, then each ELSIF
   bool hasElse = false;
   Block elseBody;
+  /// Of a chart's `IF … THEN action(); END_IF`: what stands here when `action` is no action, but a
+  /// variable; null: any other IF.
+  Stmt *ofVariable = nullptr;
 };
 
 /// `1`, `1..5`, `color.green`

@@ -1,10 +1,11 @@
 #ifndef STRIDE_COMPILER_SYNTAX_CHARACTERS_HPP
 #define STRIDE_COMPILER_SYNTAX_CHARACTERS_HPP
-// Kinds of characters, for the scanner.
+// Kinds of characters, for the scanner, and where comments end.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace stc {
 
@@ -26,6 +27,10 @@ constexpr uint8_t classOf(char c) { return kClasses[static_cast<unsigned char>(c
 constexpr bool isDigit(char c) { return classOf(c) == kDigit; }
 constexpr bool isLetter(char c) { return classOf(c) == kLetter; }
 constexpr bool isWordChar(char c) { return classOf(c) >= kLetter; }
+/// After the comment that begins at `place`; `place` when none does. `(*` nests in `(*` only; one
+/// without its end reaches to the end of the text.
+[[nodiscard]] size_t commentEnd(std::string_view text, size_t place);
+
 constexpr bool isForeign(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
 /// A letter of another alphabet in UTF-8 begins so, rather than a sign (`§`, `×`, `≤`, `„`).

@@ -149,6 +149,7 @@ ast::File *FileParser::run() {
   out->declarations = arena_.copy(declarations_);
   out->strayMembers = arena_.copy(strays_);
   out->hasInstructions = sawInstructions_;
+  out->hasChart = sawChart_;
   return out;
 }
 

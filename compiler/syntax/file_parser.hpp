@@ -19,6 +19,10 @@
 namespace stc {
 
 struct Instruction; // instruction_list.hpp
+struct Chart;       // chart.hpp
+struct ChartAction;
+struct ChartStep;
+struct ChartTransition;
 
 class FileParser {
 public:
@@ -39,6 +43,9 @@ private:
   struct Content {
     std::vector<ast::VarDecl *> variables;
     std::vector<ast::Stmt *> statements;
+    std::unique_ptr<Chart> chart; ///< null: the body is no chart
+    Content();
+    ~Content();
   };
   /// Where `head` ended up.
   struct Head {
@@ -75,6 +82,7 @@ private:
   /// Whatever may stand outside of everything, once.
   void declaration();
   void giveMembers(OpenPou &open);
+  [[nodiscard]] std::vector<ast::Name> membersOf(const ast::PouDecl *node) const;
 
   // Program units and their members.
   /// The END_… of a keyword; 0: it has none.
@@ -106,7 +114,6 @@ private:
   // Instruction lists.
   bool instructionList(Content &out);
   [[nodiscard]] size_t afterBlanks(size_t at, bool inLine) const;
-  [[nodiscard]] bool instructionAt(size_t at) const;
   void readInstruction(std::vector<Instruction> &list);
   std::string readOperator(std::vector<Token> &line);
   void readOperands(std::vector<Token> &line, bool nests);
@@ -114,7 +121,24 @@ private:
   bool takeOperands(Instruction &one, const std::vector<Token> &rest);
   bool wrongOperands(const Instruction &one, Span where, const char *what);
   ast::Expr *instructionOperand(const std::vector<Token> &tokens);
-  void chart();
+
+  // Sequential function charts.
+  [[nodiscard]] bool startsRanked() const;
+  [[nodiscard]] bool startsChart(bool begun) const;
+  void chart(std::unique_ptr<Chart> &out);
+  void finishChart(const ast::PouDecl *node, Content &content);
+  bool chartToken(uint16_t type);
+  void chartError(const std::string &expected);
+  void chartError(const std::string &expected, const Token &found);
+  void skipChartPart(uint16_t end);
+  ast::Expr *chartExpression(const Token &target, Token sign, bool (*ends)(uint16_t));
+  bool chartSteps(std::vector<ast::Name> &out, Token &last);
+  bool chartQualifier(ChartAction &action, const Token &target);
+  bool chartAction(ChartStep &step);
+  void chartStep(Chart &chart);
+  bool chartPriority(ChartTransition &out);
+  bool chartTransition(ChartTransition &out);
+  bool chartInstructions(ChartTransition &out);
 
   /// How deep a declaration is nested: brackets, and ARRAY OF, POINTER TO before a type.
   struct Nesting {
@@ -185,6 +209,8 @@ private:
   bool sawExternal_ = false; ///< `{external}` since the current POU or method began
   Span externalSpan_;
   bool sawInstructions_ = false; ///< some body of the file is an instruction list
+  bool sawChart_ = false;        ///< some body of the file is a chart
+  bool chartFailed_ = false;     ///< the current chart has an error of syntax
   std::vector<ast::Decl *> declarations_;
   std::deque<OpenPou> pous_;
   std::vector<ast::StrayMember> strays_;

@@ -7,11 +7,12 @@
 
 namespace stc {
 
+namespace {
+
 /// After the blanks and comments from `at` on; not past the end of the line when `inLine`.
-size_t FileParser::afterBlanks(size_t at, bool inLine) const {
-  const std::string_view text = scanner_.text();
+size_t blanksEnd(std::string_view text, size_t at, bool inLine) {
   while (at < text.size()) {
-    const size_t comment = scanner_.comment(at);
+    const size_t comment = commentEnd(text, at);
     if (comment != at)
       at = comment;
     else if (classOf(text[at]) == kBlank && !(inLine && text[at] == '\n'))
@@ -23,8 +24,7 @@ size_t FileParser::afterBlanks(size_t at, bool inLine) const {
 }
 
 /// Whether an instruction stands there that is no statement of Structured Text.
-bool FileParser::instructionAt(size_t at) const {
-  const std::string_view text = scanner_.text();
+bool instructionAt(std::string_view text, size_t at) {
   const auto wordEnd = [&](size_t from) {
     while (from < text.size() && isWordChar(text[from]))
       ++from;
@@ -34,9 +34,10 @@ bool FileParser::instructionAt(size_t at) const {
   const InstructionOperator *op = findInstruction(text.substr(at, end - at));
   if (op == nullptr)
     return false;
-  const size_t next = afterBlanks(end, op->most != 0);
+  const size_t next = blanksEnd(text, end, op->most != 0);
   if (op->most == 0)
-    return next >= text.size() || (isLetter(text[next]) && text[afterBlanks(end, true)] == '\n');
+    return next >= text.size() ||
+           (isLetter(text[next]) && text[blanksEnd(text, end, true)] == '\n');
   if (next >= text.size() || next == end)
     return false;
   const char first = text[next];
@@ -53,8 +54,26 @@ bool FileParser::instructionAt(size_t at) const {
   if (op->operation != Operation::Jump)
     return findKeyword(text.substr(next, after - next), hashIdent(text.substr(next, after - next)))
                .kind != Keyword::Kind::Operation;
-  const size_t semicolon = afterBlanks(after, false);
+  const size_t semicolon = blanksEnd(text, after, false);
   return semicolon >= text.size() || text[semicolon] != ';';
+}
+
+} // namespace
+
+bool isInstructionList(std::string_view body) {
+  size_t at = blanksEnd(body, 0, false);
+  size_t end = at;
+  while (end < body.size() && isWordChar(body[end]))
+    ++end;
+  const size_t colon = blanksEnd(body, end, false);
+  const std::string_view sign = body.substr(colon, 2);
+  if (end != at && isLetter(body[at]) && sign.starts_with(':') && sign != ":=")
+    at = blanksEnd(body, colon + 1, false); // after a label
+  return instructionAt(body, at);
+}
+
+size_t FileParser::afterBlanks(size_t at, bool inLine) const {
+  return blanksEnd(scanner_.text(), at, inLine);
 }
 
 /// Reads an instruction list; false: the body is none.
@@ -62,7 +81,7 @@ bool FileParser::instructionList(Content &out) {
   size_t at = now_.begin;
   if (now_.type == Tok::IDENT && ahead_.type == Tok::COLON)
     at = afterBlanks(ahead_.end, false);
-  if (!instructionAt(at))
+  if (!instructionAt(scanner_.text(), at))
     return false;
   sawInstructions_ = true;
   std::vector<Instruction> list;

@@ -126,10 +126,15 @@ void FileParser::readHeadType() {
     }
   }
   const auto bracketed = [this](uint16_t closer) {
-    while (now_.type != closer && now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit())
+    const uint16_t opener = now_.type;
+    size_t depth = 0;
+    while (now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit()) {
+      depth += now_.type == opener ? 1 : 0;
+      depth -= now_.type == closer ? 1 : 0;
       take();
-    if (now_.type == closer)
-      take();
+      if (depth == 0)
+        break;
+    }
   };
   if (now_.type == Tok::STRING || now_.type == Tok::WSTRING) {
     take();
@@ -208,6 +213,8 @@ void FileParser::pou() {
 void FileParser::finishBody(ast::PouDecl *node, Content &content) {
   node->external = sawExternal_;
   sawExternal_ = false;
+  if (content.chart != nullptr)
+    finishChart(node, content);
   if (!content.statements.empty()) {
     const Span first = content.statements.front()->span;
     if (node->kind == ast::DeclKind::Interface || node->kind == ast::DeclKind::Class) {
@@ -259,8 +266,8 @@ void FileParser::content(Content &out, OpenPou *members) {
       member(members);
     } else if (startsAccessor()) {
       return;
-    } else if (isChart(now_.type)) {
-      chart();
+    } else if (startsChart(out.chart != nullptr)) {
+      chart(out.chart);
     } else {
       if (inBody || !instructionList(out))
         body(out.statements);
@@ -304,28 +311,6 @@ void FileParser::reportMissingEnds() {
         .label(one.found, "expected `" + text + "` before this");
   }
   missing_.clear();
-}
-
-// -----------------------------------------------------------------------------------------------
-// other languages
-
-/// Reports a sequential function chart and skips it, with the actions that belong to it.
-void FileParser::chart() {
-  if (now_.type == Tok::END_STEP || now_.type == Tok::END_TRANSITION) {
-    diagnostics_.report(Code::MismatchedEnd, span(now_),
-                        "`" + std::string(tokenSpelling(now_.type)) + "` closes nothing");
-    advance();
-    return;
-  }
-  diagnostics_
-      .report(Code::NotSupported, span(now_),
-              "a sequential function chart (SFC) is not supported by this version")
-      .help("write the steps as a CASE over a state variable");
-  while (!startsDeclaration()) {
-    if (endsUnit() && now_.type != Tok::END_ACTION)
-      return;
-    advance();
-  }
 }
 
 } // namespace stc

@@ -342,6 +342,8 @@ inline bool FileParser::endsStatements() const {
   const uint16_t type = now_.type;
   if (endsUnit() || startsDeclaration() || startsSection() || isMember(type) || isChart(type))
     return true;
+  if (unit_.size() == boundary_ && startsRanked())
+    return true;
   if (unit_.size() == boundary_ && startsAccessor())
     return true;
   return unit_.size() >= kUnitTokens && unit_.size() == statement_;

@@ -1,7 +1,8 @@
 #ifndef STRIDE_COMPILER_SYNTAX_INSTRUCTION_LIST_HPP
 #define STRIDE_COMPILER_SYNTAX_INSTRUCTION_LIST_HPP
 // Instruction List, the line-oriented language of IEC 61131-3: its operators, and how a body of
-// instructions becomes the statements of Structured Text. Internal to compiler/syntax.
+// instructions becomes the statements of Structured Text. Internal to compiler/syntax, but for
+// isInstructionList().
 
 #include "compiler/source/arena.hpp"
 #include "compiler/source/diagnostic.hpp"
@@ -9,6 +10,7 @@
 #include "compiler/syntax/ast.hpp"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -31,6 +33,10 @@ struct InstructionOperator {
 
 /// Null: the word (in any case of letters) is no operator.
 [[nodiscard]] const InstructionOperator *findInstruction(std::string_view word);
+
+/// Whether the text of a body is an instruction list: its first instruction, after a label or not,
+/// is no statement of Structured Text. So the parser decides it, too; pragmas must not precede it.
+[[nodiscard]] bool isInstructionList(std::string_view body);
 
 /// True for an operator with a modifier that it does not have (`LDC`).
 [[nodiscard]] bool hasWrongModifier(std::string_view word);
@@ -60,9 +66,10 @@ struct Instruction {
 /// of its first value.
 class InstructionLowering {
 public:
-  /// `variables` of the body get those that the current result needs.
+  /// `variables` of the body get those that the current result needs; `prefix` begins their names.
   InstructionLowering(const std::vector<Instruction> &list, Interner &interner, Arena &arena,
-                      Diagnostics &diagnostics, std::vector<ast::VarDecl *> &variables);
+                      Diagnostics &diagnostics, std::vector<ast::VarDecl *> &variables,
+                      std::string prefix = "cr__");
   void run(std::vector<ast::Stmt *> &out);
 
 private:
@@ -123,6 +130,7 @@ private:
   Result now_;
   std::vector<Open> open_;
   bool reachable_ = true;
+  std::string prefix_;
   unsigned made_ = 0;
 };
 

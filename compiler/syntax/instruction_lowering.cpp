@@ -4,6 +4,7 @@
 #include "compiler/syntax/visit.hpp"
 
 #include <string>
+#include <utility>
 
 namespace stc {
 
@@ -24,9 +25,9 @@ bool calls(Expr *expr) {
 
 InstructionLowering::InstructionLowering(const std::vector<Instruction> &list, Interner &interner,
                                          Arena &arena, Diagnostics &diagnostics,
-                                         std::vector<VarDecl *> &variables)
+                                         std::vector<VarDecl *> &variables, std::string prefix)
     : list_(list), interner_(interner), arena_(arena), diagnostics_(diagnostics),
-      variables_(variables) {
+      variables_(variables), prefix_(std::move(prefix)) {
   for (size_t i = 0; i < list.size(); ++i)
     if (list[i].kind == Instruction::Kind::Label)
       labels_.emplace(list[i].label.id, i);
@@ -392,7 +393,7 @@ Expr *InstructionLowering::negation(const Instruction &one, Expr *expr) {
 
 VarDecl *InstructionLowering::variable(Span span) {
   auto *node = arena_.make<VarDecl>();
-  const std::string_view spelling = arena_.copy("cr__" + std::to_string(++made_));
+  const std::string_view spelling = arena_.copy(prefix_ + std::to_string(++made_));
   node->name = {interner_.intern(spelling), spelling, span};
   node->section = Section::Temp;
   node->type = arena_.make<TypeExpr>();

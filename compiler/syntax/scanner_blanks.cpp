@@ -7,36 +7,38 @@
 
 namespace stc {
 
+size_t commentEnd(std::string_view text, size_t place) {
+  const std::string_view rest = text.substr(std::min(place, text.size()));
+  if (rest.starts_with("//"))
+    return std::min(text.find('\n', place), text.size());
+  if (rest.starts_with("/*")) {
+    const auto end = text.find("*/", place + 2);
+    return end == std::string_view::npos ? text.size() : end + 2;
+  }
+  if (!rest.starts_with("(*"))
+    return place;
+  unsigned depth = 0;
+  do {
+    if (text.compare(place, 2, "(*") == 0) {
+      ++depth;
+      place += 2;
+    } else if (text.compare(place, 2, "*)") == 0) {
+      --depth;
+      place += 2;
+    } else {
+      ++place;
+    }
+  } while (depth != 0 && place < text.size());
+  return place;
+}
+
 bool Scanner::atLineStart(size_t place) const {
   while (place > 0 && (text_[place - 1] == ' ' || text_[place - 1] == '\t'))
     --place;
   return place == 0 || text_[place - 1] == '\n';
 }
 
-size_t Scanner::comment(size_t place) const {
-  const std::string_view rest = text_.substr(std::min(place, text_.size()));
-  if (rest.starts_with("//"))
-    return std::min(text_.find('\n', place), text_.size());
-  if (rest.starts_with("/*")) {
-    const auto end = text_.find("*/", place + 2);
-    return end == std::string_view::npos ? text_.size() : end + 2;
-  }
-  if (!rest.starts_with("(*"))
-    return place;
-  unsigned depth = 0;
-  do {
-    if (text_.compare(place, 2, "(*") == 0) {
-      ++depth;
-      place += 2;
-    } else if (text_.compare(place, 2, "*)") == 0) {
-      --depth;
-      place += 2;
-    } else {
-      ++place;
-    }
-  } while (depth != 0 && place < text_.size());
-  return place;
-}
+size_t Scanner::comment(size_t place) const { return commentEnd(text_, place); }
 
 size_t Scanner::significant(size_t place) const {
   for (;;) {

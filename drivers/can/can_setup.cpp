@@ -50,6 +50,10 @@ NodeConfig busConfig(const bus::GroupSetup &setup, const bus::SetupParameters &g
   node.heartbeat = setup.busParameters.number("heartbeat");
   node.masterNode = static_cast<uint8_t>(setup.busParameters.number("node_id"));
   node.guard = given.number("guard");
+  const auto lss = static_cast<int64_t>(given.number("lss"));
+  node.lss.wanted = lss != kLssNone;
+  node.lss.store = lss == kLssStore;
+  node.lss.bitRate = lss::bitRateIndex(bitRateOf(setup));
   node.pdoTimeout = static_cast<uint32_t>(given.number("pdo_timeout"));
   return node;
 }
@@ -130,6 +134,10 @@ void addOrReplace(std::vector<SdoWrite> &writes, SdoWrite write) {
     writes.push_back(write);
     return;
   }
+  if (!same->bytes.empty()) { // a parameter has 32 bits: the drive is asked, and it will not fit
+    *same = write;
+    return;
+  }
   const uint32_t above =
       same->size < sizeof(uint32_t) ? write.value >> (8U * same->size - 1U) : uint32_t{0};
   const bool fits = above >> 1U == 0 || above == UINT32_MAX >> (8U * same->size - 1U);
@@ -162,6 +170,7 @@ void addFileParameters(const bus::GroupSetup &setup, CanSetup &result) {
 NodeConfig nobody(const NodeConfig &like) {
   NodeConfig node = like;
   node.plan = {};
+  node.lss = {};
   return node;
 }
 

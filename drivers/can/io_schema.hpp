@@ -39,6 +39,10 @@ inline constexpr std::array kParameters = {
         .says("what it is told by NMT when its start-up begins"),
     common::duration("guard").says(
         "node guarding with this period instead of a heartbeat, for devices without 1017h"),
+    common::choice("lss", rows::kLss)
+        .defaultsTo(stride::can::kLssNone)
+        .says("before its start-up it is found by its `identity` and given its node id, as a drive "
+              "on CAN"),
     common::whole("pdo_timeout", 1, 1000, "cycles")
         .defaultsTo(3)
         .onlyWith("when", stride::can::kAtSync)

@@ -20,6 +20,10 @@ inline constexpr int64_t kResetNone = 2;
 // when
 inline constexpr int64_t kAtSync = 0;
 inline constexpr int64_t kByEvent = 1;
+// lss
+inline constexpr int64_t kLssNone = 0;
+inline constexpr int64_t kLssSet = 1;
+inline constexpr int64_t kLssStore = 2;
 // homing
 inline constexpr int64_t kHomesItself = 0;
 inline constexpr int64_t kHomedByController = 1;
@@ -39,6 +43,8 @@ inline constexpr std::array<Choice, 2> kPowerOffs = {
     {{"disable_voltage", kDisableVoltage}, {"shutdown", kShutdown}}};
 inline constexpr std::array<Choice, 3> kResets = {
     {{"communication", kResetCommunication}, {"node", kResetNode}, {"none", kResetNone}}};
+inline constexpr std::array<Choice, 3> kLss = {
+    {{"none", kLssNone}, {"set", kLssSet}, {"store", kLssStore}}};
 inline constexpr std::array<Choice, 2> kHomings = {
     {{"drive", kHomesItself}, {"controller", kHomedByController}}};
 
@@ -81,6 +87,11 @@ inline constexpr std::array kDrive = {
         .says("what the drive is told by NMT when its start-up begins"),
     duration("guard").says(
         "node guarding with this period instead of a heartbeat, for drives without 1017h"),
+    choice("lss", kLss)
+        .defaultsTo(kLssNone)
+        .says("before its start-up the node is found by its `identity`, which must be whole, and "
+              "given its node id (LSS, CiA 305): each time, or for good together with the bit "
+              "rate"),
     choice("power_off", kPowerOffs)
         .defaultsTo(kDisableVoltage)
         .says("controlword of a drive that is off: 0000h, or 0006h, with which it stays ready"),
@@ -120,8 +131,8 @@ inline constexpr std::array kDrive = {
         .says("one unit of the drive's velocities (606Ch, 60FFh, 60B1h)"),
     list("startup").says(
         "objects that are written when the drive starts, after its PDOs, in this order: "
-        "`[\"6098h := 35\", \"2031h:2 := UINT#500\"]`; the type may be left out where CiA 402 "
-        "fixes it"),
+        "`[\"6098h := 35\", \"2031h:2 := UINT#500\", \"2033h := 'Axis 1'\"]`; the type may be left "
+        "out where CiA 402 fixes it"),
     text("parameters")
         .says("a file in the folder for files, written by SMC_WriteDriveParamsToFile as text or "
               "XML: its parameters are written when the drive starts, after `startup`"),
@@ -144,6 +155,7 @@ inline constexpr std::array kEncoder = {
         "own: `wEncoderId` is without meaning"),
     kDrive[0].onlyWithout("second_of"),
     kDrive[1].onlyWithout("second_of"),
+    kDrive[2].onlyWithout("second_of"),
     whole("pdo_timeout", 1, 1000, "cycles")
         .defaultsTo(3)
         .onlyWithout("second_of")

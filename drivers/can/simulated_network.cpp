@@ -2,6 +2,7 @@
 
 #include "drivers/can/can_setup.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -23,17 +24,12 @@ simulation::BusSetup busSetup(const bus::GroupSetup &setup, const CanSetup &can)
 constexpr uint16_t kDeviceObjects = 0x2000;
 
 simulation::DataType typeOf(uint32_t bits) {
-  switch (bits) {
-  case 8:
-    return simulation::DataType::Unsigned8;
-  case 16:
-    return simulation::DataType::Unsigned16;
-  case 0: // whatever it is
-  case 32:
-    return simulation::DataType::Unsigned32;
-  default:
-    return simulation::DataType::Unsigned64;
-  }
+  using Type = simulation::DataType;
+  constexpr std::array kByBytes = {Type::Unsigned32, // whatever it is
+                                   Type::Unsigned8,  Type::Unsigned16, Type::Unsigned24,
+                                   Type::Unsigned32, Type::Unsigned40, Type::Unsigned48,
+                                   Type::Unsigned56, Type::Unsigned64};
+  return kByBytes[std::min<size_t>(bits / 8, kByBytes.size() - 1)];
 }
 
 /// Objects of its maker that it is given at start-up, or has in its own PDOs.
@@ -47,7 +43,13 @@ std::vector<simulation::ObjectRow> moreObjects(const DriveSettings &settings) {
                       .mapping = simulation::kInBoth});
   };
   for (const SdoWrite &write : settings.startup)
-    add(write.object, 8U * write.size);
+    if (write.bytes.empty() || write.bytes.size() == sizeof(uint64_t))
+      add(write.object, static_cast<uint32_t>(8U * write.length()));
+    else if (write.object.index >= kDeviceObjects)
+      rows.push_back({.index = write.object.index,
+                      .sub = write.object.sub,
+                      .type = simulation::DataType::VisibleString,
+                      .room = write.bytes.size()});
   for (const std::vector<Pdo> *pdos : {&settings.rpdos, &settings.tpdos})
     for (const Pdo &pdo : *pdos)
       for (const PdoEntry &entry : pdo.mapped())
@@ -59,6 +61,11 @@ double stepsPerUnit(const bus::SetupParameters &encoder) {
   return encoder.number("dwRatioTechUnitsDenom") / encoder.number("iRatioTechUnitsNum");
 }
 
+/// A node that is to get its number by LSS has none.
+uint8_t idOf(const bus::SetupParameters &given, uint32_t number) {
+  return given.number("lss") != 0 ? simulation::kUnconfigured : static_cast<uint8_t>(number);
+}
+
 /// A drive that is what stride.toml expects.
 simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPlan &plan,
                                      const CanSetup &can, size_t index) {
@@ -66,7 +73,7 @@ simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPl
   const bus::SetupParameters &given = drive.parameters;
   const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
   simulation::Drive402Setup result;
-  result.node.id = static_cast<uint8_t>(drive.id);
+  result.node.id = idOf(given, drive.id);
   result.node.vendor = number("identity.vendor");
   result.node.product = number("identity.product");
   result.node.revision = number("identity.revision");
@@ -95,7 +102,7 @@ std::unique_ptr<simulation::SimulatedEncoder406> makeEncoder(const bus::GroupSet
   const bus::SetupParameters &given = encoder.parameters;
   const auto number = [&](const char *name) { return static_cast<uint32_t>(given.number(name)); };
   simulation::Encoder406Setup result;
-  result.node.id = static_cast<uint8_t>(encoder.id);
+  result.node.id = idOf(given, encoder.id);
   result.node.name = "Stride simulated encoder";
   result.node.vendor = number("identity.vendor");
   result.node.product = number("identity.product");
@@ -123,7 +130,7 @@ std::unique_ptr<simulation::SimulatedIo401> makeIo(const bus::IoSetup &io, const
     return static_cast<uint32_t>(io.parameters.number(name));
   };
   simulation::Io401Setup result;
-  result.node.id = static_cast<uint8_t>(number("node"));
+  result.node.id = idOf(io.parameters, number("node"));
   result.node.name = "Stride simulated I/O device";
   result.node.vendor = number("identity.vendor");
   result.node.product = number("identity.product");

@@ -2,6 +2,7 @@
 #ifndef STRIDE_DRIVERS_CAN_SIMULATED_NETWORK_HPP
 #define STRIDE_DRIVERS_CAN_SIMULATED_NETWORK_HPP
 
+#include "drivers/can/plan/io_plan.hpp"
 #include "drivers/can/port/port.hpp"
 #include "drivers/can/simulation/drive402.hpp"
 #include "drivers/can/simulation/encoder406.hpp"

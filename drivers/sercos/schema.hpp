@@ -77,6 +77,12 @@ inline constexpr std::array kDrive = {
     duration("mode_timeout").defaultsTo(0.5).says("for a change of the operation mode"),
 };
 
+inline constexpr std::array kEncoder = {
+    common::Parameter{"second_of", common::ParameterType::DriveName}.says(
+        "it is the second encoder of this drive (S-0-0053), which the drive tells in each cycle; "
+        "`wEncoderId` is without meaning"),
+};
+
 inline constexpr std::array kIdn = {
     list("phase2").says("written in phase 2, in this order: `[\"S-0-0138 := 5000\"]`"),
     list("phase3").says("written in phase 3"),
@@ -104,7 +110,9 @@ inline constexpr bus::DriverSchema kSchema = {
     .groupData = {.type = "SercosDrive.SERCOS_RING_SIM",
                   .suffix = "_Sim",
                   .what = "simulation of axis group"},
+    .givesSync = true,
     .drive = rows::kDrive,
+    .encoder = rows::kEncoder,
     .driveTables = rows::kDriveTables,
     .check = checkGroup,
     .plan = describeGroup,

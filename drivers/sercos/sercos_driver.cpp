@@ -21,8 +21,8 @@ SercosDriver::SercosDriver(const bus::GroupSetup &setup, std::unique_ptr<Ring> r
     : SercosDriver(sercosSetup(setup), std::move(ring)) {}
 
 SercosDriver::SercosDriver(const SercosSetup &setup, std::unique_ptr<Ring> ring)
-    : master_(setup.master, std::move(ring)), faults_(setup.faults), standing_(setup.faults.size()),
-      stopPatience_(cyclesOf(kStopPatience, setup.master.cycle)),
+    : master_(setup.master, std::move(ring)), faults_(setup.faults), encoders_(setup.encoders),
+      standing_(setup.faults.size()), stopPatience_(cyclesOf(kStopPatience, setup.master.cycle)),
       offPatience_(cyclesOf(kOffPatience, setup.master.cycle)) {}
 
 void SercosDriver::attach(bus::DriverHost &host) { master_.attach(host); }
@@ -83,6 +83,16 @@ bool SercosDriver::pollParameter(size_t drive, bus::ParameterAnswer &answer) {
 }
 
 void SercosDriver::cancelParameter(size_t drive) { master_.drive(drive).cancelQuestion(); }
+
+uint32_t SercosDriver::encoder(size_t encoder) const {
+  const size_t drive = encoders_[encoder];
+  return drive == SercosSetup::kNoDrive ? 0 : master_.drive(drive).axis().secondPosition();
+}
+
+bool SercosDriver::encoderWorks(size_t encoder) const {
+  const size_t drive = encoders_[encoder];
+  return drive != SercosSetup::kNoDrive && master_.drive(drive).status().communication;
+}
 
 void SercosDriver::applicationStopped() { stopped_ = true; }
 

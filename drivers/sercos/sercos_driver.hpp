@@ -32,6 +32,8 @@ public:
   bool startParameter(size_t drive, const bus::ParameterRequest &request) override;
   bool pollParameter(size_t drive, bus::ParameterAnswer &answer) override;
   void cancelParameter(size_t drive) override;
+  [[nodiscard]] uint32_t encoder(size_t encoder) const override;
+  [[nodiscard]] bool encoderWorks(size_t encoder) const override;
   void attach(bus::DriverHost &host) override;
   void applicationStopped() override;
   [[nodiscard]] bool atRest() const override;
@@ -51,6 +53,7 @@ private:
 
   Master master_;
   std::vector<std::string> faults_; ///< Of each drive: why it cannot start.
+  std::vector<size_t> encoders_;    ///< Of each: its drive, or SercosSetup::kNoDrive.
   std::vector<uint32_t> standing_;  ///< Of each drive: cycles without a demand to move.
   uint32_t stopCycles_ = 0;         ///< Since the application has stopped …
   uint32_t stopPatience_;           ///< … until its drives are stopped by themselves.

@@ -69,6 +69,8 @@ SercosSetup sercosSetup(const bus::GroupSetup &setup) {
     result.master.drives.push_back(std::move(config));
     result.faults.push_back(std::move(fault));
   }
+  for (const EncoderPlan &encoder : plan.encoders)
+    result.encoders.push_back(encoder.fault.empty() ? encoder.drive : SercosSetup::kNoDrive);
   return result;
 }
 

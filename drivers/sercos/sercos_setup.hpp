@@ -13,6 +13,8 @@ namespace stride::sercos {
 struct SercosSetup {
   MasterConfig master;
   std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
+  static constexpr size_t kNoDrive = static_cast<size_t>(-1);
+  std::vector<size_t> encoders; ///< Of each: whose second one it is; kNoDrive: nobody's.
 };
 
 /// Reads the drives' parameter files, too.

@@ -9,6 +9,13 @@ std::string lowerCase(std::string_view text) {
   return out;
 }
 
+std::string upperCase(std::string_view text) {
+  std::string out(text);
+  for (char &c : out)
+    c = upperCase(c);
+  return out;
+}
+
 /// U+0080 to U+009F are two bytes, the first of which alone is none of them.
 void hideControls(std::string &text, std::string_view kept, size_t from) noexcept {
   for (size_t i = from; i < text.size(); ++i) {

@@ -13,6 +13,11 @@ constexpr char lowerCase(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 [[nodiscard]] std::string lowerCase(std::string_view text);
+/// The letter's upper-case form; only a to z have one.
+constexpr char upperCase(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+[[nodiscard]] std::string upperCase(std::string_view text);
 
 /// Shows control characters (U+0000 to U+001F, U+007F to U+009F) but those in `kept` as `?`, from
 /// `from` on: names of files and values of variables must not command a terminal. In place, and

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares the public indices of SoftMotion 3's libraries (sm3_index.txt) with what stdlib/ holds.
+"""Compares public indices of libraries, SoftMotion 3's (sm3_index.txt) and CODESYS V3's (v3_index.txt), with what stdlib/ holds.
 
     python3 tests/conformance/sm3_index.py
 """
@@ -9,14 +9,14 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TABLE = pathlib.Path(__file__).with_name("sm3_index.txt")
+TABLES = [pathlib.Path(__file__).with_name(name) for name in ("sm3_index.txt", "v3_index.txt")]
 
 
-def main():
+def errors_of(table):
     errors = []
     seen = set()
     library = None
-    for number, line in enumerate(TABLE.read_text(encoding="utf-8").splitlines(), 1):
+    for number, line in enumerate(table.read_text(encoding="utf-8").splitlines(), 1):
         line = line.strip()
         if not line or line.startswith("#"):
             continue
@@ -27,15 +27,20 @@ def main():
         name, _, state = line.partition(" ")
         state = state.strip()
         if not state:
-            errors.append(f"{TABLE.name}:{number}: {name} is neither done nor left out for a reason")
+            errors.append(f"{table.name}:{number}: {name} is neither done nor left out for a reason")
         if (library, name) in seen:
-            errors.append(f"{TABLE.name}:{number}: {name} stands here twice")
+            errors.append(f"{table.name}:{number}: {name} stands here twice")
         seen.add((library, name))
         exists = (ROOT / "stdlib" / library / f"{name}.st").exists()
         if exists and state != "done":
-            errors.append(f"{TABLE.name}:{number}: {name} exists; it is done")
+            errors.append(f"{table.name}:{number}: {name} exists; it is done")
         if not exists and state == "done":
-            errors.append(f"{TABLE.name}:{number}: stdlib/{library}/{name}.st does not exist")
+            errors.append(f"{table.name}:{number}: stdlib/{library}/{name}.st does not exist")
+    return errors
+
+
+def main():
+    errors = [error for table in TABLES for error in errors_of(table)]
     print("\n".join(errors))
     return 1 if errors else 0
 

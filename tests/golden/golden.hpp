@@ -27,6 +27,10 @@ std::string runFile(FileKind kind, const std::filesystem::path &file, bool bless
 /// above.
 std::string runProject(const std::filesystem::path &folder, bool bless);
 
+/// Exports a program as PLCopen XML, imports the file, runs the project: it must print what the
+/// program prints. The result as above.
+std::string runRoundTrip(const std::filesystem::path &file);
+
 /// Compares the compiler's list of diagnostic codes with the golden expectations under `root` and
 /// with the texts of `stride explain`. The result names what is missing; empty when nothing is.
 std::string checkCoverage(const std::filesystem::path &root);

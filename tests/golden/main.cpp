@@ -1,5 +1,5 @@
-// golden_runner programs|diagnostics|format FILE, golden_runner projects FOLDER, golden_runner
-// coverage ROOT. With STRIDE_BLESS=1 in the environment expectations are rewritten.
+// golden_runner programs|diagnostics|format|plcopen FILE, golden_runner projects FOLDER,
+// golden_runner coverage ROOT. With STRIDE_BLESS=1 in the environment expectations are rewritten.
 #include "tests/golden/golden.hpp"
 #include "tests/support/text.hpp"
 
@@ -47,6 +47,8 @@ static std::string runCase(std::string_view kind, const fs::path &path) {
     return runFile(FileKind::Format, path, bless);
   if (kind == "projects")
     return runProject(path, bless);
+  if (kind == "plcopen")
+    return runRoundTrip(path);
   if (kind == "coverage")
     return checkCoverage(path);
   return "unknown kind of golden test\n";
@@ -56,7 +58,8 @@ static std::string runCase(std::string_view kind, const fs::path &path) {
 
 int main(int argc, char **argv) {
   if (argc != 3) {
-    std::cerr << "usage: golden_runner programs|diagnostics|format|projects|coverage PATH\n";
+    std::cerr
+        << "usage: golden_runner programs|diagnostics|format|plcopen|projects|coverage PATH\n";
     return 2;
   }
   try {

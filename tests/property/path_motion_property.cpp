@@ -64,11 +64,12 @@ struct Scene {
   bool disturbed; ///< By overrides and stops.
   double supply;  ///< Strips per cycle that become known.
   bool changing;  ///< Its law changes under way.
+  bool lean;      ///< By plans that cost little.
 };
 
 Scene randomScene(Random &random, LawKind kind) {
   Scene scene{randomCourse(random), kind, kJerk, random.magnitude(-3, -2),
-              random.chance(0.5),   0,    false};
+              random.chance(0.5),   0,    false, false};
   if (random.chance(0.2)) // up to none to speak of
     scene.jerk *= random.magnitude(-1, 9);
   scene.supply = random.chance(0.5) ? 1e9 : random.magnitude(-0.7, 1);
@@ -80,7 +81,7 @@ class Drive {
 public:
   Drive(Scene scene, Random &random)
       : scene_(std::move(scene)), random_(random), motion_(std::make_unique<Motion>()) {
-    reset(*motion_, {scene_.kind, scene_.jerk, 1});
+    reset(*motion_, {scene_.kind, scene_.jerk, 1, scene_.lean});
     budget_ = 64 * std::max(1, static_cast<int>(scene_.cycle * 1000));
   }
 
@@ -117,7 +118,7 @@ private:
     Wish &wish = motion_->wish;
     if (scene_.changing && random_.chance(1.0 / 200))
       wish.settings = {static_cast<LawKind>(random_.below(3)), kJerk * random_.magnitude(-1, 1),
-                       random_.chance(0.5) ? 1 : 2 / M_PI};
+                       random_.chance(0.5) ? 1 : 2 / M_PI, scene_.lean};
     if (!scene_.disturbed)
       return;
     if (random_.chance(1.0 / 300))
@@ -212,6 +213,24 @@ TEST(PathMotion, KeepsJerksOfStrips) {
   const int cases = wanted(300);
   for (int i = 0; i < cases && !HasFailure(); ++i)
     driveOwnJerks(i);
+}
+
+/// Lean plans, of the same courses as others, some of them with jerks of their own.
+void driveLean(int number) {
+  Random random(1'000'000 * static_cast<unsigned>(LawKind::Jerk) + static_cast<unsigned>(number));
+  SCOPED_TRACE("lean, case " + std::to_string(number));
+  Scene scene = randomScene(random, LawKind::Jerk);
+  scene.lean = true;
+  for (Strip &strip : scene.course)
+    if (number % 3 == 2 && random.chance(0.7))
+      strip.jerk = static_cast<float>(kJerk * random.magnitude(-1.5, 0.5));
+  Drive(scene, random).run();
+}
+
+TEST(PathMotion, KeepsItsLimitsWithLeanPlans) {
+  const int cases = wanted(1000);
+  for (int i = 0; i < cases && !HasFailure(); ++i)
+    driveLean(i);
 }
 
 TEST(PathMotion, ArrivesWithALawThatChangedWhereItOnceDidNot) {

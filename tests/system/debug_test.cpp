@@ -211,6 +211,22 @@ TEST_F(Debugging, SetsVariablesToLiterals) {
   EXPECT_THAT(debug(stop + "n\n").err, HasSubstr("say what: st set Main.total := 20"));
 }
 
+// A transition stops only while its step is active; an action is called where a step names it.
+TEST_F(Debugging, StopsInCharts) {
+  const ProcessResult gdb = debug("break Main.st:7\ncontinue\nst print First.t\nprint n\ncontinue\n"
+                                  "print n\ndelete\nbreak Main.st:12\ncontinue\nbt\n"
+                                  "st print Second.x\nst print First.x\n",
+                                  "PROGRAM Main\nVAR n : INT; lamp : BOOL; END_VAR\n"
+                                  "INITIAL_STEP First:\n  Count;\nEND_STEP\n"
+                                  "TRANSITION FROM First TO Second :=\n  n >= 2;\nEND_TRANSITION\n"
+                                  "STEP Second: lamp(N); END_STEP\n"
+                                  "TRANSITION FROM Second TO First := lamp; END_TRANSITION\n"
+                                  "ACTION Count:\n  n := n + 1;\nEND_ACTION\nEND_PROGRAM\n");
+  expectInOrder(gdb, {"7\t  n >= 2;", "First.t = T#10ms\n", "$1 = 1\n", "7\t", "$2 = 2\n", "12\t",
+                      "Count () at", "Main () at", "Main.st:4\n", "Second.x = TRUE\n",
+                      "First.x = FALSE\n"});
+}
+
 TEST_F(Debugging, StopsAtExceptions) {
   const ProcessResult gdb = debug("st catch\ncontinue\nbt\n");
   EXPECT_THAT(gdb.out, HasSubstr("Ratio (divisor=0)"));

@@ -69,6 +69,52 @@ END_PROGRAM
       "70 80 3 5 360.0 0.0 1.0 1.0");
 }
 
+// A chart goes on in its active steps, with their times and what its actions have stored.
+TEST(OnlineChange, Charts) {
+  Live live(R"(
+PROGRAM PLC_PRG
+VAR lamp, go : BOOL; n : INT; END_VAR
+INITIAL_STEP Begin: lamp(S); END_STEP
+TRANSITION FROM Begin TO Work := TRUE; END_TRANSITION
+STEP Work: Count; END_STEP
+ACTION Count: n := n + 1; END_ACTION
+END_PROGRAM
+)");
+  live.run(4);
+  EXPECT_EQ(live.values({"PLC_PRG.Begin.x", "PLC_PRG.Work.x", "PLC_PRG.Work.t", "PLC_PRG.lamp",
+                         "PLC_PRG.n"}),
+            "FALSE TRUE T#20ms TRUE 3");
+  live.change(R"(
+PROGRAM PLC_PRG
+VAR go, lamp : BOOL; n : INT; END_VAR
+INITIAL_STEP Begin: lamp(S); END_STEP
+TRANSITION FROM Begin TO Added := TRUE; END_TRANSITION
+STEP Added: END_STEP
+TRANSITION FROM Added TO Work := TRUE; END_TRANSITION
+STEP Work: Count; END_STEP
+TRANSITION FROM Work TO Added := Work.t >= T#50ms; END_TRANSITION
+ACTION Count: n := n + 10; END_ACTION
+END_PROGRAM
+)");
+  EXPECT_EQ(live.verdict, Verdict::Silent);
+  live.run(2);
+  EXPECT_EQ(live.values({"PLC_PRG.Begin.x", "PLC_PRG.Work.x", "PLC_PRG.Work.t", "PLC_PRG.lamp",
+                         "PLC_PRG.n"}),
+            "FALSE TRUE T#40ms TRUE 23");
+  live.run(1); // the final scan
+  EXPECT_EQ(live.values({"PLC_PRG.Added.x", "PLC_PRG.Work.x", "PLC_PRG.n"}), "TRUE FALSE 33");
+  live.change(R"(
+PROGRAM PLC_PRG
+VAR go, lamp : BOOL; n : INT; END_VAR
+INITIAL_STEP Begin: lamp(S); END_STEP
+TRANSITION FROM Begin TO Work := TRUE; END_TRANSITION
+STEP Work: END_STEP
+END_PROGRAM
+)");
+  live.run(1); // the active step is gone
+  EXPECT_EQ(live.values({"PLC_PRG.Begin.x", "PLC_PRG.Work.x", "PLC_PRG.lamp"}), "TRUE FALSE TRUE");
+}
+
 TEST(OnlineChange, RetypedAndRenamed) {
   Live live(R"(
 TYPE Mode : (off, manual, automatic); END_TYPE

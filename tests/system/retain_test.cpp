@@ -254,4 +254,42 @@ TEST_F(RetainTest, WhatCannotBeSavedIsSaidAndTheRunGoesOn) {
   EXPECT_THAT(result.err, HasSubstr("cannot create 'file/kept.lock'"));
 }
 
+// The clock begins anew, the time of the step goes on.
+TEST_F(RetainTest, AChartGoesOnWhereItWas) {
+  program = R"(FUNCTION_BLOCK Chart
+VAR n, lateAt, overAt : INT; lamp, late, brief : BOOL; END_VAR
+INITIAL_STEP Begin: lamp(S); END_STEP
+TRANSITION FROM Begin TO Work := TRUE; END_TRANSITION
+STEP Work: Count; late(D, T#150ms); brief(SL, T#120ms); END_STEP
+ACTION Count:
+n := n + 1;
+IF late AND lateAt = 0 THEN lateAt := n; END_IF
+IF n > 1 AND NOT brief AND overAt = 0 THEN overAt := n; END_IF
+END_ACTION
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR RETAIN chart : Chart; END_VAR
+chart();
+END_PROGRAM
+)";
+  const std::vector<std::string> run = {
+      "sim",
+      "Main.st",
+      "--for",
+      "T#100ms",
+      "--retain",
+      "kept",
+      "--print",
+      "Main.chart.n,Main.chart.lamp,Main.chart.late,Main.chart.lateAt,"
+      "Main.chart.overAt,Main.chart.Work.t"};
+  EXPECT_THAT(stride(run).out,
+              HasSubstr("Main.chart.n = 9\nMain.chart.lamp = TRUE\nMain.chart.late = FALSE\n"
+                        "Main.chart.lateAt = 0\nMain.chart.overAt = 0\n"
+                        "Main.chart.Work.t = T#80ms\n"));
+  EXPECT_THAT(stride(run).out,
+              HasSubstr("Main.chart.n = 19\nMain.chart.lamp = TRUE\nMain.chart.late = TRUE\n"
+                        "Main.chart.lateAt = 17\nMain.chart.overAt = 14\n"
+                        "Main.chart.Work.t = T#170ms\n"));
+}
+
 } // namespace

@@ -15,7 +15,7 @@ namespace {
 
 /// How many are created.
 void emitCount(EmitContext &cx, const CallExpr *e) {
-  if (e->arguments.size() > 1)
+  if (e->arguments.size() > 1 && e->arguments[1].parameter == nullptr)
     emitValue(cx, e->arguments[1].value);
   else
     cx.out << '1';
@@ -90,7 +90,7 @@ void emitNew(EmitContext &cx, const CallExpr *e) {
   cx.inlined([&] {
     cx.modes.init.span = e->span;
     initDefault(cx, object, t);
-    constructPlain(cx, object, t);
+    constructWith(cx, object, t, e->arguments);
     callAfterInit(cx, object, t);
   });
   cx.out << "} return " << objects << "; }()";

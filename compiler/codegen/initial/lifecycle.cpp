@@ -190,12 +190,17 @@ void construct(EmitContext &cx, std::string_view target, const VarSymbol *variab
 }
 
 void constructPlain(EmitContext &cx, std::string_view target, const Type *type) {
+  constructWith(cx, target, type, {});
+}
+
+void constructWith(EmitContext &cx, std::string_view target, const Type *type,
+                   std::span<const Argument> arguments) {
   const Type *element = innermost(type);
   if (element->kind != TypeKind::FunctionBlock ||
       findInit(typeAs<PouType>(element)->symbol) == nullptr)
     return;
   forEachInstance(cx, target, type, [&](std::string_view each) {
-    callInits(cx, each, typeAs<PouType>(element)->symbol, {});
+    callInits(cx, each, typeAs<PouType>(element)->symbol, arguments);
   });
 }
 

@@ -10,6 +10,9 @@ namespace stc::codegen {
 void construct(EmitContext &cx, std::string_view target, const VarSymbol *variable);
 /// FB_Init of instances that come without a declaration of their own.
 void constructPlain(EmitContext &cx, std::string_view target, const Type *type);
+/// The same with arguments: those that have a `parameter` are for FB_Init.
+void constructWith(EmitContext &cx, std::string_view target, const Type *type,
+                   std::span<const ast::Argument> arguments);
 /// {attribute 'call_after_init'}
 void callAfterInit(EmitContext &cx, std::string_view target, const Type *type);
 /// FB_Exit of a local variable, at the end of the call.

@@ -3,6 +3,7 @@
 #include "compiler/semantics/builtins/internal.hpp"
 
 #include "compiler/semantics/builtins/builtin_calls.hpp"
+#include "compiler/semantics/classes/classes.hpp"
 #include "compiler/semantics/config/config.hpp"
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
@@ -11,6 +12,8 @@
 #include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 namespace stc::sema {
 
@@ -28,12 +31,41 @@ const PouSymbol *withoutAttribute(const Type *type) {
   return hasAttribute(pou->decl->attributes, AttributeId::EnableDynamicCreation) ? nullptr : pou;
 }
 
+/// `__NEW(FB(x := 1), n)` becomes `__NEW(FB, n, x := 1)`: what goes to FB_Init has a `parameter`.
+/// False: it has no list of inputs.
+bool unfoldConstruct(Context &c, CallExpr *expr) {
+  Expr *named = expr->arguments.empty() ? nullptr : expr->arguments[0].value;
+  if (named == nullptr || named->kind != ExprKind::Call)
+    return false;
+  auto *call = as<CallExpr>(named);
+  const Type *type = namedType(c, call->callee);
+  if (type == nullptr || isError(type))
+    return false;
+  if (type->kind != TypeKind::FunctionBlock) {
+    c.report(Code::WrongConstruct, named->span, typeName(type) + " takes no inputs here",
+             "only instances of function blocks do")
+        .help("write the type alone, and assign to what the pointer leads to");
+    expr->arguments[0].value = call->callee;
+    return true;
+  }
+  auto *pou = typeAs<PouType>(type)->symbol;
+  declare(c, pou);
+  bindConstruct(c, call->arguments, pou, named->span);
+  std::vector<Argument> all(expr->arguments.begin(), expr->arguments.end());
+  all[0].value = call->callee;
+  std::copy_if(call->arguments.begin(), call->arguments.end(), std::back_inserter(all),
+               [](const Argument &a) { return a.parameter != nullptr; });
+  expr->arguments = c.arena.copy(all);
+  return true;
+}
+
 } // namespace
 
 const Type *checkNew(Context &c, CallExpr *expr) {
   const Type *bad = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr) || expr->arguments[0].value == nullptr)
     return bad;
+  const bool hasConstruct = unfoldConstruct(c, expr);
   Expr *named = expr->arguments[0].value;
   const Type *type = namedType(c, named);
   if (type == nullptr) {
@@ -56,7 +88,7 @@ const Type *checkNew(Context &c, CallExpr *expr) {
     d.help("write `{attribute 'enable_dynamic_creation'}` before its FUNCTION_BLOCK");
     return bad;
   }
-  if (expr->arguments.size() == 2) {
+  if (expr->arguments.size() > 1 && expr->arguments[1].parameter == nullptr) {
     Expr *count = expr->arguments[1].value;
     const Type *countType = check(c, count);
     if (isError(countType))
@@ -68,6 +100,8 @@ const Type *checkNew(Context &c, CallExpr *expr) {
   c.program.usesPool = true;
   if (isInstance(type))
     declare(c, typeAs<PouType>(type)->symbol);
+  if (type->kind == TypeKind::FunctionBlock && !hasConstruct)
+    bindConstruct(c, {}, typeAs<PouType>(type)->symbol, named->span);
   if (hasSlots(c, type)) {
     c.report(Code::PlaceMissing, named->span,
              "no VAR_CONFIG can place the variables of an object of `__NEW`",

@@ -37,6 +37,34 @@ static const Type *notCallable(Context &c, CallExpr *expr, std::string message) 
   return checkArguments(c, expr);
 }
 
+/// A call whose callee is the name of a function of the compiler.
+static const Type *callBuiltin(Context &c, CallExpr *expr, BuiltinSymbol *symbol) {
+  as<NameExpr>(expr->callee)->symbol = symbol;
+  expr->resolved = Callee::Builtin;
+  expr->builtin = symbol->id;
+  const Type *result = checkBuiltin(c, expr, nullptr);
+  foldCall(c, expr, result);
+  return result;
+}
+
+/// `Standard.LEN(…)` is `LEN(…)`; null: it is something else.
+static const Type *calledInStandard(Context &c, CallExpr *expr) {
+  const auto *member = as<MemberExpr>(expr->callee);
+  if (!c.names.isBuiltin(member->name.id))
+    return nullptr;
+  Symbol *space = resolveNamespace(c, member->base);
+  if (space == nullptr || c.names.memberOfSpace(space, member->name.id) != nullptr)
+    return nullptr;
+  BuiltinSymbol *function = c.names.standardFunction(space, member->name.id);
+  if (function == nullptr)
+    return nullptr;
+  auto *name = c.arena.make<NameExpr>();
+  name->name = member->name;
+  name->span = member->span;
+  expr->callee = name;
+  return callBuiltin(c, expr, function);
+}
+
 /// What a plain name calls; null: a value, or a built-in function, whose call then has the type
 /// `result`.
 static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) {
@@ -56,11 +84,7 @@ static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) 
     return nullptr;
   }
   if (symbol->kind == SymbolKind::Builtin) {
-    name->symbol = symbol;
-    expr->resolved = Callee::Builtin;
-    expr->builtin = static_cast<BuiltinSymbol *>(symbol)->id;
-    result = checkBuiltin(c, expr, nullptr);
-    foldCall(c, expr, result);
+    result = callBuiltin(c, expr, static_cast<BuiltinSymbol *>(symbol));
     return nullptr;
   }
   if (symbol->kind != SymbolKind::Pou)
@@ -186,7 +210,8 @@ const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
   PouSymbol *pou = nullptr;
   if (callee->kind == ExprKind::Name)
     pou = calledByName(c, expr, result);
-  else if (callee->kind == ExprKind::Member && as<MemberExpr>(callee)->bit < 0)
+  else if (callee->kind == ExprKind::Member && as<MemberExpr>(callee)->bit < 0 &&
+           (result = calledInStandard(c, expr)) == nullptr)
     pou = calledInNamespace(c, as<MemberExpr>(callee));
   if (pou != nullptr && (pou->isBlock() || pou->isInterface()))
     return reportTypeCalled(c, expr, pou);

@@ -16,6 +16,9 @@ void checkClass(Context &c, PouSymbol *pou);
 ast::Access memberAccess(const PouSymbol *method);
 /// Whether a variable's arguments are what FB_Init of its block takes.
 void checkConstruct(Context &c, VarSymbol *variable);
+/// Gives an instance's arguments to the inputs of its block's FB_Init, or reports at `span` what
+/// does not fit.
+void bindConstruct(Context &c, std::span<ast::Argument> arguments, PouSymbol *pou, Span span);
 /// Reports a method with {attribute 'call_after_init'} that needs inputs.
 void checkAfterInit(Context &c, PouSymbol *method);
 

@@ -17,9 +17,6 @@ namespace stc::sema {
 
 using namespace ast;
 
-static void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *pou,
-                          const std::vector<VarSymbol *> &inputs, Span span);
-
 namespace {
 
 /// The innermost type as written, `FB` of `ARRAY [1..3] OF FB`.
@@ -63,9 +60,8 @@ void checkConstruct(Context &c, VarSymbol *variable) {
            std::string(pou->name.text) + "`");
     return;
   }
-  const std::vector<VarSymbol *> inputs = constructInputs(pou);
   if (named == nullptr || named->elements.empty()) {
-    bindConstruct(c, named == nullptr ? std::span<Argument>() : named->arguments, pou, inputs,
+    bindConstruct(c, named == nullptr ? std::span<Argument>() : named->arguments, pou,
                   written->span);
     return;
   }
@@ -75,11 +71,11 @@ void checkConstruct(Context &c, VarSymbol *variable) {
                  std::to_string(count) + (count == 1 ? " instance" : " instances"),
              "one `(…)` for each element");
   for (const std::span<Argument> arguments : named->elements)
-    bindConstruct(c, arguments, pou, inputs, written->span);
+    bindConstruct(c, arguments, pou, written->span);
 }
 
-static void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *pou,
-                          const std::vector<VarSymbol *> &inputs, Span span) {
+void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *pou, Span span) {
+  const std::vector<VarSymbol *> inputs = constructInputs(pou);
   const std::string name(pou->name.text);
   std::unordered_set<const VarSymbol *> given;
   bool failed = false;

@@ -141,6 +141,14 @@ Symbol *resolveNamespace(Context &c, Expr *expr) {
       if (other != nullptr && other->kind == SymbolKind::Type)
         symbol = other;
     }
+    // `SysTime.SysTimeGetMs()`, although SYSTIME is a type: one without enumerators has no members.
+    if (symbol != nullptr && symbol->kind == SymbolKind::Type) {
+      const Type *type = static_cast<const TypeSymbol *>(symbol)->type;
+      Symbol *library = type == nullptr || type->kind == TypeKind::Enumeration
+                            ? nullptr
+                            : c.names.library(c.scope, name->name);
+      symbol = library == nullptr ? symbol : library;
+    }
     // `GVL.x`, although a variable or a POU may have the list's name, is not decided here: the
     // value wins.
     if (symbol != nullptr &&

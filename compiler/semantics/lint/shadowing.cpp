@@ -139,7 +139,7 @@ static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const 
     return;
   }
   for (const LibraryIndex::Entry &entry : c.names.index().find(v->name.id->lower)) {
-    if (entry.qualifiedOnly || !declaresFunction(entry.text, v->name.id->lower))
+    if (entry.qualifiedOnly || entry.isForeign || !declaresFunction(entry.text, v->name.id->lower))
       continue;
     const std::string library(entry.library);
     reportHidden(c, v, nullptr, "the function of the library `" + library + "`")
@@ -168,7 +168,8 @@ void checkHiddenLibrary(Context &c, Module &module) {
       return;
     }
     for (const LibraryIndex::Entry &entry : c.names.index().find(symbol->name.id->lower)) {
-      if (entry.qualifiedOnly || !declaresPouOrType(entry.text, symbol->name.id->lower))
+      if (entry.qualifiedOnly || entry.isForeign ||
+          !declaresPouOrType(entry.text, symbol->name.id->lower))
         continue;
       reportHiddenLibrary(c, symbol, what, std::string(entry.library));
       return;

@@ -5,6 +5,10 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/cam_tables.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "runtime/common/text.hpp"
+
+#include <algorithm>
+#include <vector>
 
 namespace stc {
 
@@ -12,9 +16,14 @@ using namespace ast;
 
 namespace {
 
-/// Names of that file are seen in the scope without the library's name.
+/// Names of that file are seen in the scope without the library's name: also those of one of
+/// Stride's libraries that the project has asked for.
 bool isSeenUnqualified(const Scope &scope, const LibraryIndex::Entry &entry) {
-  return !entry.qualifiedOnly || scope.module->library->name == entry.library;
+  const Library &here = *scope.module->library;
+  return !entry.qualifiedOnly || here.name == entry.library ||
+         std::ranges::any_of(here.uses, [&](const UsedLibrary &used) {
+           return !used.library->isOwn && used.library->name == entry.library;
+         });
 }
 
 FoundEnumerator
@@ -50,6 +59,14 @@ Lookup::Lookup(Program &program, const LibraryIndex &index)
     symbol->id = function;
     builtins_.emplace(id, symbol);
   }
+}
+
+BuiltinSymbol *Lookup::standardFunction(const Symbol *library, Ident id) const {
+  if (library->kind != SymbolKind::Library || ownModule(library->name.id->lower) != nullptr ||
+      !index_.answersTo("Standard", library->name.id->lower))
+    return nullptr;
+  const auto found = builtins_.find(id);
+  return found == builtins_.end() ? nullptr : found->second;
 }
 
 Symbol *Lookup::inPou(PouSymbol *pou, Ident id) {
@@ -98,10 +115,10 @@ Symbol *Lookup::listOfLibraries(const Scope &scope, Ident id) const {
   for (const UsedLibrary &own : scope.module->library->uses) {
     const Module &library = *modules_.at(own.library->name);
     const auto found = library.lists.find(id);
-    if (!own.library->qualifiedOnly && found != library.lists.end())
+    if (own.library->isOwn && !own.library->qualifiedOnly && found != library.lists.end())
       return found->second;
   }
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     const Module *library =
         isSeenUnqualified(scope, entry) ? findModule(entry.library) : nullptr; // loaded by now
     if (library == nullptr)
@@ -157,13 +174,24 @@ Found Lookup::inLibraries(const Scope &scope, Ident id) {
   Found found = inOwnLibraries(scope, id);
   if (!found)
     return {inStandardLibraries(scope, id)};
-  if (found.other == nullptr)
+  const std::vector<LibraryIndex::Entry> entries = standardEntries(id);
+  const bool contested = std::any_of(entries.begin(), entries.end(),
+                                     [](const auto &entry) { return !entry.isForeign; });
+  if (found.other == nullptr && contested)
     found.other = inStandardLibraries(scope, id);
   return found;
 }
 
+std::vector<LibraryIndex::Entry> Lookup::standardEntries(Ident id) const {
+  std::vector<LibraryIndex::Entry> entries = index_.find(id->lower);
+  std::erase_if(entries, [&](const LibraryIndex::Entry &entry) {
+    return entry.isForeign && ownModule(lowerCase(entry.library)) != nullptr;
+  });
+  return entries;
+}
+
 Symbol *Lookup::inStandardLibraries(const Scope &scope, Ident id) {
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     if (!entry.qualifiedOnly || !isSeenUnqualified(scope, entry))
       continue;
     load(entry);
@@ -173,7 +201,7 @@ Symbol *Lookup::inStandardLibraries(const Scope &scope, Ident id) {
   const auto [it, fresh] = inLibraries_.emplace(id, nullptr);
   if (!fresh)
     return it->second;
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     if (entry.qualifiedOnly)
       continue;
     load(entry);
@@ -195,7 +223,7 @@ Symbol *Lookup::inLibrary(Ident library, Ident id) {
            : space != own->spaces.end() ? static_cast<Symbol *>(space->second)
                                         : nullptr;
   }
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     if (!index_.answersTo(entry.library, library->lower))
       continue;
     load(entry);
@@ -243,7 +271,7 @@ FoundEnumerator Lookup::enumerator(const Scope &scope, Ident id, const Type *exp
 FoundEnumerator Lookup::enumeratorOfLibraries(const Scope &scope, Ident id) {
   FoundEnumerator own;
   for (const UsedLibrary &used : scope.module->library->uses) {
-    if (used.library->qualifiedOnly)
+    if (used.library->qualifiedOnly || !used.library->isOwn)
       continue;
     const auto found = enumeratorOf(modules_.at(used.library->name)->enumerators, id);
     if (found.enumerator == nullptr)
@@ -256,7 +284,7 @@ FoundEnumerator Lookup::enumeratorOfLibraries(const Scope &scope, Ident id) {
   }
   if (own.enumerator != nullptr)
     return own;
-  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+  for (const LibraryIndex::Entry &entry : standardEntries(id)) {
     if (!isSeenUnqualified(scope, entry))
       continue;
     load(entry);

@@ -73,7 +73,14 @@ public:
   /// What is INTERNAL and declared there can be used in the scope.
   [[nodiscard]] bool seesInternals(const Scope &scope, const Library *library,
                                    const NamespaceSymbol *space) const;
+  /// What a library or namespace has of this name; null: nothing.
+  Symbol *memberOfSpace(Symbol *space, Ident id);
+  /// The library that goes by this name; null: none.
+  Symbol *library(const Scope &scope, const ast::Name &name);
   [[nodiscard]] bool isBuiltin(Ident id) const { return builtins_.contains(id); }
+  /// `Standard.LEN`: the function of the compiler that stands for one of that library; null: there
+  /// is none, or it is another library.
+  [[nodiscard]] BuiltinSymbol *standardFunction(const Symbol *library, Ident id) const;
   [[nodiscard]] const ConfigurationParts &configuration() const { return configuration_; }
   /// The names of the own library of that name in lower case; null: there is none.
   [[nodiscard]] const Module *ownModule(std::string_view lowerName) const;
@@ -145,10 +152,10 @@ private:
   NamespaceSymbol *makeSpace(Module &module, NamespaceSymbol *around, const ast::Name &name);
   Symbol *declareCamTable(Ident id);
 
-  Symbol *memberOfSpace(Symbol *space, Ident id);
   Symbol *self(const Scope &scope, const ast::Name &name);
-  Symbol *library(const Scope &scope, const ast::Name &name);
   Symbol *inStandardLibraries(const Scope &scope, Ident id);
+  /// Where Stride's libraries declare it. One of the project replaces a foreign one of its name.
+  [[nodiscard]] std::vector<LibraryIndex::Entry> standardEntries(Ident id) const;
   Symbol *listOfLibraries(const Scope &scope, Ident id) const;
   FoundEnumerator enumeratorOfLibraries(const Scope &scope, Ident id);
   FoundEnumerator usedEnumerator(const Scope &scope, Ident id);

@@ -47,6 +47,8 @@ Found Lookup::inOwnLibraries(const Scope &scope, Ident id) const {
   Found found;
   for (const UsedLibrary &used : scope.module->library->uses) {
     const Library *library = used.library;
+    if (!library->isOwn) // one of Stride's, whose names are loaded on demand
+      continue;
     Symbol *here = library->qualifiedOnly ? nullptr : modules_.at(library->name)->find(id);
     if (here == nullptr || isForeign(scope, here))
       continue;

@@ -141,6 +141,8 @@ std::vector<std::string_view> memberNames(const Type *type) {
 
 /// Whether a symbol can be what a wrong name meant.
 static bool canBeMeant(const Symbol *symbol, Sought sought) {
+  if (symbol->kind == SymbolKind::Variable && static_cast<const VarSymbol *>(symbol)->hidden)
+    return false;
   const auto *pou =
       symbol->kind == SymbolKind::Pou ? static_cast<const PouSymbol *>(symbol) : nullptr;
   const bool isFunction = symbol->kind == SymbolKind::Builtin ||

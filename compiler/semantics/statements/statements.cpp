@@ -45,7 +45,21 @@ void checkBody(Context &c, PouSymbol *pou) {
   }
 }
 
+/// What the statement of a chart that runs an action is: a call, or an assignment to a variable.
+static Stmt *chosen(Context &c, Stmt *stmt) {
+  if (stmt->kind != StmtKind::If || as<IfStmt>(stmt)->ofVariable == nullptr)
+    return stmt;
+  const Stmt *call = as<IfStmt>(stmt)->branches.front().body.front();
+  const Expr *callee = as<CallExpr>(as<CallStmt>(call)->expr)->callee;
+  Symbol *symbol = lookup(c, as<NameExpr>(callee)->name);
+  const bool isVariable = symbol != nullptr && symbol->kind == SymbolKind::Variable &&
+                          !isInstance(typeOf(c, static_cast<VarSymbol *>(symbol)));
+  return isVariable ? as<IfStmt>(stmt)->ofVariable : stmt;
+}
+
 void checkBlock(Context &c, Block block) {
+  for (Stmt *&stmt : block)
+    stmt = chosen(c, stmt);
   for (Stmt *stmt : block)
     checkStatement(c, stmt);
 }
@@ -118,6 +132,24 @@ static void checkInLoop(Context &c, const Stmt *stmt) {
     d.help("leave the POU with RETURN");
 }
 
+/// The condition of a branch of IF. One that is assigned right before is a slip, or said to be
+/// none.
+static void checkBranch(Context &c, const IfBranch &branch) {
+  if (branch.assigned == nullptr)
+    return checkCondition(c, branch.condition, "the condition of IF");
+  const Type *type = check(c, branch.condition, elementaryType(TypeKind::Boolean));
+  if (isError(type))
+    return;
+  const Span sign = branch.assigned->opSpan;
+  if (type == elementaryType(TypeKind::Boolean))
+    c.report(Code::ConditionAssigned, sign, "`:=` assigns; what is assigned is the condition",
+             "is `=` meant?")
+        .help("write `=` to compare, or assign in a statement of its own before");
+  else
+    c.report(Code::AssignInCondition, sign, "`:=` assigns, it does not compare", "expected `=`")
+        .help("write `=` to compare");
+}
+
 static void checkStatement(Context &c, Stmt *stmt) {
   switch (stmt->kind) {
   case StmtKind::Empty:
@@ -131,7 +163,7 @@ static void checkStatement(Context &c, Stmt *stmt) {
     return checkCallStatement(c, as<CallStmt>(stmt));
   case StmtKind::If:
     for (const IfBranch &branch : as<IfStmt>(stmt)->branches) {
-      checkCondition(c, branch.condition, "the condition of IF");
+      checkBranch(c, branch);
       checkBlock(c, branch.body);
     }
     return checkBlock(c, as<IfStmt>(stmt)->elseBody);

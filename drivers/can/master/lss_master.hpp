@@ -3,34 +3,25 @@
 #ifndef STRIDE_DRIVERS_CAN_MASTER_LSS_MASTER_HPP
 #define STRIDE_DRIVERS_CAN_MASTER_LSS_MASTER_HPP
 
-#include "drivers/can/port/frame.hpp"
+#include "drivers/can/master/lss.hpp"
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 
 namespace stride::can {
 
-/// How something has ended.
-enum class LssResult : uint8_t {
-  Done,
-  NoAnswer,    ///< Nobody, or nobody in time.
-  Refused,     ///< The node does not take it: the number, or it cannot keep it.
-  WrongAnswer, ///< To another question.
-};
-
 class LssMaster {
 public:
   /// Vendor, product, revision, serial number. [1018h]
-  using Identity = std::array<uint32_t, 4>;
+  using Identity = lss::Identity;
   /// Sends a request; its answer, if there is one in time. Without `awaits` nobody answers.
   using Exchange = std::function<std::optional<Frame>(const Frame &request, bool awaits)>;
 
-  static constexpr uint16_t kRequestId = 0x7E5;
-  static constexpr uint16_t kAnswerId = 0x7E4;
+  static constexpr uint16_t kRequestId = lss::kRequestId;
+  static constexpr uint16_t kAnswerId = lss::kAnswerId;
   /// The number of a node that has none.
-  static constexpr uint8_t kNoNode = 255;
+  static constexpr uint8_t kNoNode = lss::kNoNode;
 
   explicit LssMaster(Exchange exchange) : exchange_(std::move(exchange)) {}
 

@@ -10,6 +10,8 @@ namespace {
 
 constexpr uint32_t kMostMissed = 3;
 constexpr uint32_t kMostLate = 2;
+constexpr double kLssTimeout = 0.5; ///< To store something may take a while. [s]
+constexpr double kBootTime = 2;     ///< Of devices that LSS has reset, at most. [s]
 /// Frames that are read in a cycle, as a multiple of those that are planned.
 constexpr size_t kReserve = 4;
 
@@ -29,7 +31,8 @@ bool isLost(ControllerState state) {
 Master::Master(const MasterConfig &config, std::unique_ptr<Port> port)
     : config_(config), port_(std::move(port)), frames_(kReserve * plannedFrames(config)),
       heartbeatCycles_(cyclesOf(config.heartbeat, config.cycle)),
-      timeCycles_(config.timeStamp > 0 ? cyclesOf(config.timeStamp, config.cycle) : 0) {
+      timeCycles_(config.timeStamp > 0 ? cyclesOf(config.timeStamp, config.cycle) : 0),
+      lss_(cyclesOf(kLssTimeout, config.cycle)) {
   nodes_.reserve(config.nodes.size());
   for (const NodeConfig &node : config.nodes) {
     nodes_.emplace_back(node);
@@ -37,6 +40,7 @@ Master::Master(const MasterConfig &config, std::unique_ptr<Port> port)
     addRoutes(static_cast<uint8_t>(nodes_.size() - 1));
   }
   routes_[kSyncCobId] = {Kind::Sync};
+  routes_[lss::kAnswerId] = {Kind::Lss};
 }
 
 void Master::addRoutes(uint8_t index) {
@@ -65,7 +69,8 @@ void Master::executeStart() {
   judgeSync();
   judgeSetValues();
   awaitPdos();
-  const uint32_t syncs = config_.givesSync ? 1 : syncs_;
+  // Nodes answer the SYNC of somebody else as well.
+  const uint32_t syncs = syncs_ + (config_.givesSync ? 1 : 0);
   bool duplicate = false;
   for (Node &node : nodes_) {
     node.endReceive(syncs, news_);
@@ -74,6 +79,71 @@ void Master::executeStart() {
   if (duplicate)
     for (Node &node : nodes_)
       node.lose(NodeLoss::Duplicate, news_);
+  serveLss();
+}
+
+/// One node after the other: only one may be selected at a time.
+void Master::serveLss() {
+  lss_.cycle();
+  if (lssNode_ != kNobody && !lss_.busy())
+    numbered();
+  if (lssNode_ == kNobody && resetNmt_ == NmtCommand::None)
+    numberNext();
+  const bool busy = lssNode_ != kNobody || resetNmt_ != NmtCommand::None ||
+                    std::any_of(nodes_.begin(), nodes_.end(),
+                                [](const Node &node) { return node.wantsNumber(); });
+  for (Node &node : nodes_)
+    node.setLssBusy(busy);
+}
+
+/// Who is booting does not answer: it may be the next one.
+bool Master::awaitsBootUps() {
+  const bool boots =
+      std::any_of(nodes_.begin(), nodes_.end(), [](const Node &node) { return node.boots(); });
+  toBoot_ = boots && toBoot_ > 0 ? toBoot_ - 1 : 0;
+  return toBoot_ > 0;
+}
+
+void Master::numberNext() {
+  if (awaitsBootUps())
+    return;
+  const auto next = std::find_if(nodes_.begin(), nodes_.end(),
+                                 [](const Node &node) { return node.wantsNumber(); });
+  if (next == nodes_.end())
+    return;
+  lssNode_ = static_cast<size_t>(next - nodes_.begin());
+  lss_.begin(next->lssOrder());
+}
+
+/// A node that had another number begins with its new one when it is reset by the old one; but not
+/// if one of ours that works would be reset with it.
+void Master::numbered() {
+  LssOutcome outcome = lss_.outcome();
+  if (outcome.kind == LssOutcome::Kind::Assigned && outcome.before != lss::kNoNode) {
+    const bool used = std::any_of(nodes_.begin(), nodes_.end(), [&outcome](const Node &node) {
+      return node.number() == outcome.before && node.inUse();
+    });
+    if (used) {
+      outcome.kind = LssOutcome::Kind::InUse;
+    } else {
+      resetNmt_ = NmtCommand::ResetCommunication;
+      resetNode_ = outcome.before;
+    }
+  }
+  nodes_[lssNode_].numbered(outcome, news_);
+  lssNode_ = kNobody;
+}
+
+void Master::sendLss() {
+  if (resetNmt_ != NmtCommand::None && send(nmtFrame(resetNmt_, resetNode_), SendClass::Service)) {
+    resetNmt_ = NmtCommand::None;
+    toBoot_ = cyclesOf(kBootTime, config_.cycle);
+    for (Node &node : nodes_)
+      if (node.number() == resetNode_)
+        node.resetByLss();
+  }
+  if (lss_.pending() && send(lss_.nextFrame(), SendClass::Service))
+    lss_.sent();
 }
 
 void Master::giveSync() {
@@ -168,6 +238,9 @@ void Master::take(const Frame &frame) {
   case Kind::Emcy:
     nodes_[route.node].emcy(frame, news_);
     break;
+  case Kind::Lss:
+    lss_.received(frame);
+    break;
   case Kind::Sync:
     ++syncs_;
     for (Node &node : nodes_)
@@ -230,6 +303,7 @@ void Master::executeEnd() {
     return;
   sendPdos();
   sendCommands();
+  sendLss();
   sendHeartbeat();
   sendTime();
   sendSdos();

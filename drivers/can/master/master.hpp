@@ -2,6 +2,7 @@
 #ifndef STRIDE_DRIVERS_CAN_MASTER_MASTER_HPP
 #define STRIDE_DRIVERS_CAN_MASTER_MASTER_HPP
 
+#include "drivers/can/master/lss_assignment.hpp"
 #include "drivers/can/master/node.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/port/port.hpp"
@@ -81,13 +82,15 @@ public:
   void problem(bus::Message &text) const;
 
 private:
-  enum class Kind : uint8_t { None, Tpdo, Sdo, Heartbeat, Emcy, Sync };
+  enum class Kind : uint8_t { None, Tpdo, Sdo, Heartbeat, Emcy, Sync, Lss };
   /// For whom a frame is.
   struct Route {
     Kind kind = Kind::None;
     uint8_t node = 0;  ///< Index.
     uint8_t place = 0; ///< Tpdo.
   };
+
+  static constexpr size_t kNobody = static_cast<size_t>(-1);
 
   void addRoutes(uint8_t index);
   void giveSync();
@@ -101,6 +104,11 @@ private:
   bool send(const Frame &frame, SendClass sendClass);
   void sendPdos();
   void sendCommands();
+  void serveLss();
+  bool awaitsBootUps();
+  void numberNext();
+  void numbered();
+  void sendLss();
   void sendHeartbeat();
   void sendTime();
   void sendSdos();
@@ -125,6 +133,11 @@ private:
   uint32_t lateInRow_ = 0;   ///< Cycles whose set values were late.
   uint32_t missedInRow_ = 0; ///< Cycles without SYNC.
   size_t nextSdo_ = 0;       ///< Whose turn it is.
+  LssAssignment lss_;
+  size_t lssNode_ = kNobody;               ///< Who is being given its number.
+  NmtCommand resetNmt_ = NmtCommand::None; ///< To be sent to …
+  uint8_t resetNode_ = 0;                  ///< … a number that a node had before.
+  uint32_t toBoot_ = 0;                    ///< For so long those are waited for at most. [cycles]
   ControllerState state_ = ControllerState::Active;
   bool syncSeen_ = false;
   bool saidForeign_ = false;

@@ -47,7 +47,35 @@ Node::Node(const NodeConfig &config)
     : config_(config), sdo_(config.plan.node, cyclesOf(config.sdoTimeout, config.cycle)),
       supervision_(config.plan.node), startUp_(config), drive_(config.drive, config.plan),
       parameters_(config.parameters), refreshCycles_(cyclesOf(kRefresh, config.cycle)),
-      needed_(neededPdos(config)) {}
+      needed_(neededPdos(config)), wantsNumber_(config.lss.wanted) {}
+
+LssOrder Node::lssOrder() const {
+  return {config_.identity, config_.plan.node, config_.lss.bitRate, config_.lss.store};
+}
+
+void Node::numbered(const LssOutcome &outcome, bus::News &news) {
+  wantsNumber_ = false;
+  lss_ = outcome;
+  if (outcome.kind != LssOutcome::Kind::Assigned)
+    return;
+  if (outcome.before != lss::kNoNode) // it is still to be reset: who has booted so far is another
+    supervision_.clear();
+  boots_ = supervision_.bootUps() == 0;
+  const uint32_t number = config_.plan.node;
+  if (outcome.before == lss::kNoNode)
+    news.say("node ", number, " has got its number by LSS");
+  else
+    news.say("node ", number, " has got its number by LSS, in place of ", uint32_t{outcome.before});
+  if (outcome.notStored)
+    news.say("node ", number, " cannot store its number: it is given to it at each start");
+  if (outcome.noBitRate)
+    news.say("node ", number, " does not take the bit rate by LSS: it keeps its own setting");
+}
+
+void Node::resetByLss() {
+  supervision_.clear();
+  boots_ = true;
+}
 
 /// FALSE: the frame has another length than it should.
 bool Node::takeOver(size_t place, const Frame &frame) {
@@ -116,6 +144,7 @@ void Node::beginReceive() { arrived_ = {}; }
 void Node::endReceive(uint32_t syncs, bus::News &news) {
   sdo_.cycle();
   supervision_.cycle();
+  boots_ = boots_ && supervision_.bootUps() == 0;
   if (phase_ != Phase::Started)
     return;
   countPdos(syncs);
@@ -139,24 +168,22 @@ void Node::watchDrive(bus::News &news) {
 
 /// Synchronous TPDOs: one for each SYNC. Late ones come with the next.
 void Node::countPdos(uint32_t syncs) {
-  const uint32_t due = std::max(syncs, 1U);
   bool all = true;
-  uint32_t most = 0;
   bool any = false;
   for (size_t i = 0; i < config_.plan.tpdoCount; ++i) {
     if (!config_.plan.tpdos[i].synchronous())
       continue;
     any = true;
     all = all && arrived_[i] > 0;
-    most = std::max<uint32_t>(most, arrived_[i]);
+    balances_[i].count(arrived_[i], std::max(syncs, 1U));
   }
-  if (!any)
-    return;
-  missing_ = all ? 0 : std::min(missing_ + 1, config_.pdoTimeout);
-  if (most > due)
-    excess_ = std::min(excess_ + most - due, kMostExcess);
-  else if (most == 0 && excess_ > 0 && !duplicate())
-    --excess_;
+  if (any)
+    missing_ = all ? 0 : std::min(missing_ + 1, config_.pdoTimeout);
+}
+
+bool Node::duplicate() const {
+  return std::any_of(balances_.begin(), balances_.end(),
+                     [](const PdoBalance &balance) { return balance.second(); });
 }
 
 bool Node::pdosComplete() const {
@@ -258,7 +285,8 @@ bus::StartUp Node::init(uint16_t &progress, bus::Message &message, bus::News &ne
     seen_ = 0;
   }
   const bool arrived = (seen_ & needed_) == needed_;
-  const StartParts parts{config_, sdo_, supervision_, facts_, nmt_, arrived};
+  const bool lssBusy = lssBusy_ || wantsNumber_;
+  const StartParts parts{config_, sdo_, supervision_, facts_, nmt_, arrived, lssBusy, lss_, boots_};
   const bus::StartUp result = startUp_.step(parts, message);
   progress = startUp_.progress();
   if (result == bus::StartUp::Failed)
@@ -294,8 +322,10 @@ void Node::sayLacks(bus::News &news) const {
 }
 
 void Node::reset() {
-  if (phase_ != Phase::Idle)
+  if (phase_ != Phase::Idle) {
     nmt_ = NmtCommand::PreOperational;
+    wantsNumber_ = config_.lss.wanted;
+  }
   phase_ = Phase::Idle;
   sdo_.clear();
   supervision_.clear();
@@ -305,7 +335,8 @@ void Node::reset() {
   user_ = SdoUser::None;
   loss_ = NodeLoss::None;
   silent_ = saidSilent_ = saidStuck_ = false;
-  missing_ = excess_ = wrongLength_ = failedSends_ = 0;
+  missing_ = wrongLength_ = failedSends_ = 0;
+  balances_ = {};
   seen_ = 0;
 }
 

@@ -4,8 +4,10 @@
 
 #include "drivers/can/master/drive402.hpp"
 #include "drivers/can/master/emcy.hpp"
+#include "drivers/can/master/lss_assignment.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/master/parameter_transfer.hpp"
+#include "drivers/can/master/pdo_balance.hpp"
 #include "drivers/can/master/sdo_client.hpp"
 #include "drivers/can/master/start_up.hpp"
 #include "drivers/can/master/supervision.hpp"
@@ -67,6 +69,18 @@ public:
   [[nodiscard]] Supervision &supervision() { return supervision_; }
   [[nodiscard]] SdoClient &sdo() { return sdo_; }
 
+  /// It is still to be given its number by LSS …
+  [[nodiscard]] bool wantsNumber() const { return wantsNumber_; }
+  [[nodiscard]] LssOrder lssOrder() const;
+  /// … which has ended so.
+  void numbered(const LssOutcome &outcome, bus::News &news);
+  /// Devices with its number have been reset, so that one of them begins with another.
+  void resetByLss();
+  /// By LSS it begins anew, and has not booted since.
+  [[nodiscard]] bool boots() const { return boots_; }
+  /// Nodes of the bus get their numbers.
+  void setLssBusy(bool busy) { lssBusy_ = busy; }
+
   bus::StartUp init(uint16_t &progress, bus::Message &message, bus::News &news);
   void reset();
   void lose(NodeLoss loss, bus::News &news);
@@ -74,9 +88,13 @@ public:
   [[nodiscard]] bus::DriveStatus status() const;
   [[nodiscard]] bool communication() const;
   [[nodiscard]] bool started() const { return phase_ == Phase::Started; }
+  /// In operation, or on the way to it: a reset would undo what it has been told.
+  [[nodiscard]] bool inUse() const {
+    return started() || (phase_ == Phase::Starting && startUp_.isReset());
+  }
   [[nodiscard]] NodeLoss loss() const { return loss_; }
-  /// In its present start-up, or in operation, more synchronous PDOs have come than it may send.
-  [[nodiscard]] bool duplicate() const { return excess_ >= kMostExcess; }
+  /// In operation more synchronous PDOs have come than it may send.
+  [[nodiscard]] bool duplicate() const;
   [[nodiscard]] Drive402 &drive() { return drive_; }
   [[nodiscard]] const Drive402 &drive() const { return drive_; }
   [[nodiscard]] ParameterTransfer &parameters() { return parameters_; }
@@ -89,7 +107,6 @@ public:
 private:
   enum class Phase : uint8_t { Idle, Starting, Started, Failed };
   enum class SdoUser : uint8_t { None, Drive, Parameter };
-  static constexpr uint32_t kMostExcess = 3;
 
   struct Rpdo {
     Frame frame;
@@ -124,11 +141,11 @@ private:
   std::array<Rpdo, DrivePlan::kMostPdos> rpdos_{};
   std::array<uint8_t, DrivePlan::kMostPdos> arrived_{}; ///< TPDOs of this cycle, by place …
   std::array<bool, DrivePlan::kMostPdos> atSync_{};     ///< … and since the last SYNC.
-  ObjectWish wish_;                                     ///< The drive's, under way.
+  std::array<PdoBalance, DrivePlan::kMostPdos> balances_{};
+  ObjectWish wish_; ///< The drive's, under way.
   std::array<uint8_t, 4> wishBytes_{};
   uint32_t refreshCycles_;
   uint32_t missing_ = 0;     ///< Cycles without a synchronous TPDO.
-  uint32_t excess_ = 0;      ///< Synchronous TPDOs beyond one in each cycle.
   uint32_t wrongLength_ = 0; ///< TPDOs of another length, in a row.
   uint32_t failedSends_ = 0; ///< Cycles in a row in which an RPDO did not go out.
   uint32_t bootUps_ = 0;     ///< When it had started.
@@ -138,6 +155,10 @@ private:
   Phase phase_ = Phase::Idle;
   SdoUser user_ = SdoUser::None;
   NodeLoss loss_ = NodeLoss::None;
+  LssOutcome lss_;
+  bool wantsNumber_;
+  bool lssBusy_ = false;
+  bool boots_ = false; ///< By LSS it begins anew, and has not booted since.
   bool silent_ = false;
   bool late_ = false;
   bool saidSilent_ = false;

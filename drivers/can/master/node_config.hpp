@@ -3,6 +3,7 @@
 #define STRIDE_DRIVERS_CAN_MASTER_NODE_CONFIG_HPP
 
 #include "drivers/can/master/drive402.hpp"
+#include "drivers/can/master/lss.hpp"
 #include "drivers/can/plan/pdo_plan.hpp"
 #include "runtime/common/io_exchange.hpp"
 
@@ -12,6 +13,13 @@
 #include <vector>
 
 namespace stride::can {
+
+/// Whether a node gets its number by LSS before it starts up, by its identity.
+struct LssConfig {
+  bool wanted = false;
+  bool store = false;                ///< The node keeps it when it is switched off …
+  uint8_t bitRate = lss::kNoBitRate; ///< … with this bit rate, by the table of the standard.
+};
 
 /// Where the bytes of an I/O device come from and go to.
 struct IoConfig {
@@ -40,6 +48,7 @@ struct NodeConfig {
   Reset reset = Reset::Communication;
   /// 1018h:1 … 1018h:4: vendor, product, revision, serial number; 0: whichever.
   std::array<uint32_t, kIdentity> identity{};
+  LssConfig lss;
   double sdoTimeout = 0.5;          ///< [s]
   uint32_t pdoTimeout = 3;          ///< Without a synchronous TPDO the node is silent. [cycles]
   double heartbeat = 0.1;           ///< Of the node and of the master. [s]

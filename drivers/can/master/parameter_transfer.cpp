@@ -84,7 +84,8 @@ int32_t parameterOf(Object object) { return object.index * 256 + object.sub; }
 ParameterTransfer::ParameterTransfer(std::span<const SdoWrite> listed) {
   listed_.reserve(listed.size() + kUsual.size());
   for (const SdoWrite &one : listed)
-    list(one.object, There::Yes);
+    if (one.bytes.empty()) // a parameter has 32 bits
+      list(one.object, There::Yes);
   for (const Object object : kUsual)
     list(object, There::Unknown);
 }

@@ -154,6 +154,8 @@ std::vector<StartStep> startSteps(const NodeConfig &config) {
   List list;
   const bool drive = config.kind == NodeConfig::Kind::Drive;
   const bool served = config.kind != NodeConfig::Kind::SyncDevice;
+  if (config.lss.wanted)
+    list.add(StartOp::Lss, kResetting);
   list.add(StartOp::Reset, kResetting);
   if (config.reset != NodeConfig::Reset::None)
     list.add(StartOp::BootUp, kResetting);

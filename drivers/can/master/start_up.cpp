@@ -37,18 +37,30 @@ struct OpRow {
   StartOp op;
   Manner manner;
 };
-constexpr std::array<OpRow, 22> kOps = {{
-    {StartOp::Reset, Manner::Act},           {StartOp::BootUp, Manner::Act},
-    {StartOp::DeviceType, Manner::Read},     {StartOp::Identity, Manner::Read},
-    {StartOp::SupportedModes, Manner::Read}, {StartOp::RatedTorque, Manner::Read},
-    {StartOp::RatedCurrent, Manner::Read},   {StartOp::HomeOffset, Manner::Read},
-    {StartOp::RangeLow, Manner::Read},       {StartOp::RangeHigh, Manner::Read},
-    {StartOp::EncoderRange, Manner::Read},   {StartOp::StampDate, Manner::Read},
-    {StartOp::StampTime, Manner::Read},      {StartOp::NoRemote, Manner::Read},
-    {StartOp::Write, Manner::Write},         {StartOp::WriteConsumer, Manner::Write},
-    {StartOp::WriteMode, Manner::Write},     {StartOp::ReadMode, Manner::Read},
-    {StartOp::Supervise, Manner::Act},       {StartOp::Start, Manner::Act},
-    {StartOp::Operational, Manner::Act},     {StartOp::FirstPdo, Manner::Act},
+constexpr std::array<OpRow, 23> kOps = {{
+    {StartOp::Lss, Manner::Act},
+    {StartOp::Reset, Manner::Act},
+    {StartOp::BootUp, Manner::Act},
+    {StartOp::DeviceType, Manner::Read},
+    {StartOp::Identity, Manner::Read},
+    {StartOp::SupportedModes, Manner::Read},
+    {StartOp::RatedTorque, Manner::Read},
+    {StartOp::RatedCurrent, Manner::Read},
+    {StartOp::HomeOffset, Manner::Read},
+    {StartOp::RangeLow, Manner::Read},
+    {StartOp::RangeHigh, Manner::Read},
+    {StartOp::EncoderRange, Manner::Read},
+    {StartOp::StampDate, Manner::Read},
+    {StartOp::StampTime, Manner::Read},
+    {StartOp::NoRemote, Manner::Read},
+    {StartOp::Write, Manner::Write},
+    {StartOp::WriteConsumer, Manner::Write},
+    {StartOp::WriteMode, Manner::Write},
+    {StartOp::ReadMode, Manner::Read},
+    {StartOp::Supervise, Manner::Act},
+    {StartOp::Start, Manner::Act},
+    {StartOp::Operational, Manner::Act},
+    {StartOp::FirstPdo, Manner::Act},
 }};
 constexpr bool opsAreInOrder() {
   for (size_t i = 0; i < kOps.size(); ++i)
@@ -98,6 +110,7 @@ void StartUp::go(size_t place) {
   place_ = place;
   waited_ = 0;
   asked_ = false;
+  compares_ = false;
   measured_ = 0;
 }
 
@@ -127,17 +140,16 @@ bus::StartUp StartUp::step(const StartParts &parts, bus::Message &message) {
 bool StartUp::disturbed(const StartParts &parts, bus::Message &message) {
   const uint32_t bootUps = parts.supervision.bootUps();
   if (bootUps > bootUps_) {
-    if (bootUps > 1) {
+    if (bootUps > 1 && isReset()) { // LSS resets all devices that have one number by mistake
       message.set("node ", uint32_t{node_},
                   " has booted twice: duplicate node id, or it restarts by itself");
       return true;
     }
     bootUps_ = bootUps;
-    const bool awaited = now().op == StartOp::Reset || now().op == StartOp::BootUp;
     const auto first = std::find_if(steps_.begin(), steps_.end(), [](const StartStep &step) {
-      return step.op != StartOp::Reset && step.op != StartOp::BootUp;
+      return step.op > StartOp::BootUp;
     });
-    if (!awaited) { // it has come late, and knows nothing of what it has been told
+    if (!awaitsBootUp()) { // it has come late, and knows nothing of what it has been told
       parts.sdo.clear();
       go(static_cast<size_t>(first - steps_.begin()));
     }
@@ -159,11 +171,10 @@ StartUp::Outcome StartUp::await(bool there, std::string_view text, bus::Message 
 
 StartUp::Outcome StartUp::act(const StartParts &parts, bus::Message &message) {
   switch (now().op) {
+  case StartOp::Lss:
+    return awaitNumber(parts, message);
   case StartOp::Reset:
-    parts.supervision.clear();
-    parts.sdo.clear();
-    parts.nmt = kResets[static_cast<size_t>(parts.config.reset)];
-    return Outcome::Next;
+    return reset(parts);
   case StartOp::BootUp:
     return awaitBootUp(parts);
   case StartOp::Supervise:
@@ -181,8 +192,45 @@ StartUp::Outcome StartUp::act(const StartParts &parts, bus::Message &message) {
   }
 }
 
+/// A node that begins anew by LSS is not reset before it has booted.
+StartUp::Outcome StartUp::reset(const StartParts &parts) {
+  if (parts.lssBusy)
+    waited_ = 0; // the patience is for this node alone
+  if (parts.lssBusy || (parts.boots && waited_ < patience_))
+    return Outcome::Busy;
+  bootUps_ = 0;
+  parts.boots = false;
+  parts.supervision.clear();
+  parts.sdo.clear();
+  // A reset of the whole node brings back the number that it has stored.
+  const bool forgets = parts.config.lss.wanted && (!parts.config.lss.store || parts.lss.notStored);
+  parts.nmt = kResets[static_cast<size_t>(parts.config.reset)];
+  if (forgets && parts.nmt == NmtCommand::ResetNode)
+    parts.nmt = NmtCommand::ResetCommunication;
+  return Outcome::Next;
+}
+
+StartUp::Outcome StartUp::awaitNumber(const StartParts &parts, bus::Message &message) const {
+  if (parts.lssBusy)
+    return Outcome::Busy;
+  switch (parts.lss.kind) {
+  case LssOutcome::Kind::Refused:
+    message.set("node ", uint32_t{node_}, ": the device refuses this number (LSS)");
+    return Outcome::Failed;
+  case LssOutcome::Kind::InUse:
+    message.set("node ", uint32_t{node_}, ": the device has the number of node ",
+                uint32_t{parts.lss.before}, ", which is in operation: ");
+    message.append(parts.config.lss.store && !parts.lss.notStored
+                       ? "switch it off and on"
+                       : "give it another one (stride can lss), or stop that node first");
+    return Outcome::Failed;
+  default:
+    return Outcome::Next;
+  }
+}
+
 /// Without its message the node may have been there for long: it is asked.
-StartUp::Outcome StartUp::awaitBootUp(const StartParts &parts) {
+StartUp::Outcome StartUp::awaitBootUp(const StartParts &parts) const {
   return parts.supervision.bootUps() > 0 || waited_ >= patience_ ? Outcome::Next : Outcome::Busy;
 }
 
@@ -227,9 +275,13 @@ bool StartUp::chooseMode(const StartParts &parts, bus::Message &message) {
 
 StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
   const SdoWrite &object = now().object;
-  const bool measures = object.size == 0 && measured_ == 0; // before it is written
-  if (mannerOf(now().op) == Manner::Read || (now().op == StartOp::Write && measures)) {
+  const bool measures = object.length() == 0 && measured_ == 0; // before it is written
+  if (mannerOf(now().op) == Manner::Read || compares_ || (now().op == StartOp::Write && measures)) {
     asked_ = parts.sdo.upload(object.object, bytes_);
+    return Outcome::Busy;
+  }
+  if (!object.bytes.empty()) {
+    asked_ = parts.sdo.download(object.object, object.bytes);
     return Outcome::Busy;
   }
   uint32_t value = valueOf(object, parts.facts);
@@ -255,11 +307,12 @@ StartUp::Outcome StartUp::answered(const StartParts &parts, bus::Message &messag
   default:
     break;
   }
-  if (now().op == StartOp::Write && now().object.size == 0 && measured_ == 0)
+  if (now().op == StartOp::Write && now().object.length() == 0 && measured_ == 0)
     return measured(parts, message);
-  if (mannerOf(now().op) == Manner::Write)
+  if (mannerOf(now().op) == Manner::Write && !compares_)
     return Outcome::Next;
-  return taken(parts, numberOf(std::span<const uint8_t>(bytes_).first(parts.sdo.size())), message);
+  const uint32_t value = numberOf(std::span<const uint8_t>(bytes_).first(parts.sdo.size()));
+  return compares_ ? compared(value, parts, message) : taken(parts, value, message);
 }
 
 /// The node has told how long the object is: what is cut off of the value must be nothing, or its
@@ -289,14 +342,18 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
     noRemote_ = now().op == StartOp::NoRemote ? 0 : noRemote_;
     return Outcome::Next;
   }
+  if (isFixedPdo(parts.sdo))
+    return fixedPdo(object);
   message.set("node ", uint32_t{node_});
   if (parts.sdo.timedOut() && now().op == StartOp::DeviceType) {
     message.append(" does not answer: is it on, with this number and bit rate?");
+    if (parts.lss.kind == LssOutcome::Kind::NotFound)
+      message.append(" No node with its identity answers by LSS, either");
     return Outcome::Failed;
   }
   message.append(", ");
   message.append(ObjectText(object.object));
-  if (mannerOf(now().op) == Manner::Write) {
+  if (mannerOf(now().op) == Manner::Write && object.bytes.empty()) {
     message.append(" := ");
     message.append(HexText(valueOf(object, parts.facts)));
   }

@@ -2,6 +2,7 @@
 #ifndef STRIDE_DRIVERS_CAN_MASTER_START_UP_HPP
 #define STRIDE_DRIVERS_CAN_MASTER_START_UP_HPP
 
+#include "drivers/can/master/lss_assignment.hpp"
 #include "drivers/can/master/node_config.hpp"
 #include "drivers/can/master/sdo_client.hpp"
 #include "drivers/can/master/supervision.hpp"
@@ -15,7 +16,8 @@ namespace stride::can {
 
 /// What a step does.
 enum class StartOp : uint8_t {
-  Reset,          ///< By NMT.
+  Lss,            ///< Until the nodes of the bus have their numbers.
+  Reset,          ///< By NMT, after the node has booted with its number.
   BootUp,         ///< Until its message comes, or so long that it must be there.
   DeviceType,     ///< It must be of the profile that the kind of the node has.
   Identity,       ///< It must be what the configuration says.
@@ -40,7 +42,7 @@ enum class StartOp : uint8_t {
 };
 
 struct StartStep {
-  StartOp op = StartOp::Reset;
+  StartOp op = StartOp::Lss;
   uint8_t progress = 0; ///< 0 … 99, AXIS_REF.wCommunicationState.
   SdoWrite object;      ///< What is read or written; Identity: `value` is expected.
 };
@@ -59,6 +61,9 @@ struct StartParts {
   DriveFacts &facts;
   NmtCommand &nmt;  ///< To be sent; None again when it has been.
   bool pdosArrived; ///< Since the node is operational.
+  bool lssBusy;     ///< Nodes of the bus get their numbers: nobody is reset meanwhile.
+  const LssOutcome &lss;
+  bool &boots; ///< By LSS it begins anew, and has not booted since.
 };
 
 class StartUp {
@@ -71,6 +76,10 @@ public:
   bus::StartUp step(const StartParts &parts, bus::Message &message);
 
   [[nodiscard]] uint8_t progress() const;
+  /// It has been reset: what it is told from now on it must keep.
+  [[nodiscard]] bool isReset() const {
+    return place_ >= steps_.size() || now().op > StartOp::Reset;
+  }
   /// It has no 1016h, no 1017h.
   [[nodiscard]] bool lacksConsumer() const { return lacksConsumer_; }
   [[nodiscard]] bool lacksHeartbeat() const { return lacksHeartbeat_; }
@@ -86,8 +95,13 @@ private:
   Outcome answered(const StartParts &parts, bus::Message &message);
   Outcome measured(const StartParts &parts, bus::Message &message);
   Outcome refused(const StartParts &parts, bus::Message &message);
+  [[nodiscard]] bool isFixedPdo(const SdoClient &sdo) const;
+  Outcome fixedPdo(const SdoWrite &write);
+  Outcome compared(uint32_t value, const StartParts &parts, bus::Message &message) const;
   Outcome taken(const StartParts &parts, uint32_t value, bus::Message &message);
-  Outcome awaitBootUp(const StartParts &parts);
+  Outcome reset(const StartParts &parts);
+  Outcome awaitNumber(const StartParts &parts, bus::Message &message) const;
+  [[nodiscard]] Outcome awaitBootUp(const StartParts &parts) const;
   Outcome awaitMode(const StartParts &parts, uint32_t value, bus::Message &message);
   Outcome checkType(const NodeConfig &config, uint32_t value, bus::Message &message) const;
   Outcome checkEncoder(const NodeConfig &config, uint32_t value, bus::Message &message) const;
@@ -100,6 +114,9 @@ private:
   void go(size_t place);
   void skipConfiguration();
   [[nodiscard]] uint32_t valueOf(const SdoWrite &write, const DriveFacts &facts) const;
+  [[nodiscard]] bool awaitsBootUp() const {
+    return now().op == StartOp::Lss || now().op == StartOp::Reset || now().op == StartOp::BootUp;
+  }
   [[nodiscard]] const StartStep &now() const { return steps_[place_]; }
 
   std::vector<StartStep> steps_;
@@ -114,6 +131,7 @@ private:
   bool asked_ = false; ///< The question of this step is under way.
   /// Bytes of the object of this step, that its node has told; 0: it has not.
   uint8_t measured_ = 0;
+  bool compares_ = false; ///< What this step would write is fixed: it must be what is wanted.
   bool stampFits_ = false;
   bool lacksConsumer_ = false;
   bool lacksHeartbeat_ = false;

@@ -21,7 +21,7 @@ struct TypeRow {
   std::string_view name;
   ObjectForm form;
 };
-constexpr std::array<TypeRow, 10> kTypes = {{{"BOOL", {1, false}},
+constexpr std::array<TypeRow, 13> kTypes = {{{"BOOL", {1, false}},
                                              {"BYTE", {1, false}},
                                              {"SINT", {1, true}},
                                              {"USINT", {1, false}},
@@ -30,8 +30,13 @@ constexpr std::array<TypeRow, 10> kTypes = {{{"BOOL", {1, false}},
                                              {"WORD", {2, false}},
                                              {"DINT", {4, true}},
                                              {"UDINT", {4, false}},
-                                             {"DWORD", {4, false}}}};
+                                             {"DWORD", {4, false}},
+                                             {"LINT", {8, true}},
+                                             {"ULINT", {8, false}},
+                                             {"LWORD", {8, false}}}};
 constexpr std::string_view kReal = "REAL";
+constexpr std::string_view kLreal = "LREAL";
+constexpr size_t kLongestText = 255; ///< [bytes]
 
 /// Objects that the driver writes itself, and what of stride.toml decides about them.
 struct OwnedRow {
@@ -90,25 +95,52 @@ bool objectOf(std::string_view text, Object &object, std::optional<uint64_t> *bi
   return *bits ? true : fail(error, "the bits of an object are a number");
 }
 
-std::optional<uint32_t> fitted(const common::WholeNumber &number, const ObjectForm &form,
+std::optional<uint64_t> fitted(const common::WholeNumber &number, const ObjectForm &form,
                                bool isBool) {
   const unsigned bits = 8U * form.bytes;
-  const uint64_t most = isBool ? 1 : (uint64_t{1} << (form.isSigned ? bits - 1 : bits)) - 1;
+  const uint64_t all = UINT64_MAX >> (64 - bits);
+  const uint64_t most = isBool ? 1 : form.isSigned ? all >> 1U : all;
   const uint64_t least = form.isSigned ? most + 1 : 0; // below zero
   if (number.magnitude > (number.negative ? least : most))
     return std::nullopt;
   const uint64_t word = number.negative ? ~number.magnitude + 1 : number.magnitude;
-  return static_cast<uint32_t>(word & ((uint64_t{1} << bits) - 1));
+  return word & all;
 }
 
-bool realValue(std::string_view text, SdoWrite &write, std::string &error) {
-  float value = 0;
+void set(SdoWrite &write, uint64_t value, uint8_t size) {
+  if (size <= sizeof write.value) {
+    write.size = size;
+    write.value = static_cast<uint32_t>(value);
+    return;
+  }
+  for (unsigned i = 0; i < size; ++i)
+    write.bytes.push_back(static_cast<uint8_t>(value >> 8U * i));
+}
+
+/// A REAL or a LREAL.
+template <class Real, class Bits>
+bool realValue(std::string_view text, std::string_view type, SdoWrite &write, std::string &error) {
+  Real value = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || problem != std::errc() || end != text.data() + text.size() ||
       !std::isfinite(value))
-    return fail(error, "this is no REAL");
-  write.size = sizeof value;
-  write.value = std::bit_cast<uint32_t>(value);
+    return fail(error, "this is no " + std::string(type));
+  set(write, std::bit_cast<Bits>(value), sizeof value);
+  return true;
+}
+
+/// "'Axis 1'", without the NUL that ends it in a program.
+bool textValue(std::string_view text, SdoWrite &write, std::string &error) {
+  constexpr char kQuote = '\'';
+  if (text.size() < 3 || text.back() != kQuote)
+    return fail(error, "a text is written between quotes, and has one character at least");
+  text = text.substr(1, text.size() - 2);
+  const bool plain = std::all_of(text.begin(), text.end(), [](char one) {
+    return one >= ' ' && one <= '~' && one != kQuote && one != '$';
+  });
+  if (!plain || text.size() > kLongestText)
+    return fail(error, "a text has up to 255 characters of ASCII, without ' and $");
+  write.bytes.assign(text.begin(), text.end());
   return true;
 }
 
@@ -129,11 +161,16 @@ bool valueOf(std::string_view text, SdoWrite &write, std::string &error) {
   const std::string_view name = text.substr(0, mark == std::string_view::npos ? 0 : mark);
   const TypeRow *type = name.empty() ? nullptr : typeOf(name);
   const bool typed = !name.empty() && (name[0] < '0' || name[0] > '9');
+  if (text.starts_with('\'') && known.bytes == 0)
+    return textValue(text, write, error);
   if (name == kReal && known.bytes == 0)
-    return realValue(text.substr(mark + 1), write, error);
+    return realValue<float, uint32_t>(text.substr(mark + 1), kReal, write, error);
+  if (name == kLreal && known.bytes == 0)
+    return realValue<double, uint64_t>(text.substr(mark + 1), kLreal, write, error);
   if (typed && type == nullptr)
     return fail(error, "a value has the type BOOL, BYTE, SINT, USINT, INT, UINT, WORD, DINT, "
-                       "UDINT, DWORD or REAL, as in UINT#500");
+                       "UDINT, DWORD, LINT, ULINT, LWORD, REAL or LREAL, as in UINT#500, or is a "
+                       "text between quotes");
   if (type != nullptr) {
     form = type->form;
     text.remove_prefix(mark + 1);
@@ -150,8 +187,7 @@ bool valueOf(std::string_view text, SdoWrite &write, std::string &error) {
   if (!value)
     return fail(error, "the value does not fit into " + std::to_string(8 * form.bytes) + " bits" +
                            (form.isSigned ? " with a sign" : " without a sign"));
-  write.size = form.bytes;
-  write.value = *value;
+  set(write, *value, form.bytes);
   return true;
 }
 
@@ -254,9 +290,8 @@ bool parseEntry(std::string_view text, PdoEntry &entry, std::string &error) {
                        "2031h:2:16");
   if (bits && known != 0 && *bits != known)
     return fail(error, "this object has " + std::to_string(known) + " bits");
-  constexpr std::array<uint64_t, 4> kLengths = {8, 16, 32, 64};
-  if (bits && std::find(kLengths.begin(), kLengths.end(), *bits) == kLengths.end())
-    return fail(error, "an object in a PDO has 8, 16, 32 or 64 bits");
+  if (bits && (*bits == 0 || *bits > Pdo::kMostBits || *bits % 8 != 0))
+    return fail(error, "an object in a PDO has whole bytes, 8 to 64 bits");
   entry.bits = static_cast<uint8_t>(bits ? *bits : known);
   return true;
 }

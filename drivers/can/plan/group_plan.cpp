@@ -3,6 +3,7 @@
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace stride::can {
 namespace {
@@ -43,6 +44,32 @@ bool isDataSheet(const bus::GroupSetup &setup, uint32_t id) {
   return false;
 }
 
+constexpr std::array kIdentityKeys = {"identity.vendor", "identity.product", "identity.revision",
+                                      "identity.serial"};
+
+/// It is found by its identity.
+bool byLss(const bus::SetupParameters &node) { return node.number("lss") != 0; }
+
+/// Why a node cannot be found by its identity.
+std::string lssFault(const bus::SetupParameters &node, const bus::GroupSetup &setup) {
+  if (!byLss(node))
+    return {};
+  for (const char *const key : kIdentityKeys)
+    if (!node.given(key))
+      return "`lss` finds it by its identity: `identity` needs `vendor`, `product`, `revision` and "
+             "`serial`";
+  const auto isSame = [&node](const auto &other) {
+    return byLss(other.parameters) &&
+           std::all_of(kIdentityKeys.begin(), kIdentityKeys.end(), [&](const char *key) {
+             return other.parameters.number(key) == node.number(key);
+           });
+  };
+  const auto same = std::count_if(setup.drives.begin(), setup.drives.end(), isSame) +
+                    std::count_if(setup.encoders.begin(), setup.encoders.end(), isSame) +
+                    std::count_if(setup.ios.begin(), setup.ios.end(), isSame);
+  return same > 1 ? "`lss` finds it by its identity, and another node has the same one" : "";
+}
+
 /// Why a drive cannot be started at all.
 std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint32_t id,
                     const bus::GroupSetup &setup, bool hasSyncDevice) {
@@ -58,6 +85,10 @@ std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint3
     return "another drive has the same wDriveId";
   if (!settings.errors.empty())
     return settings.errors.front();
+  for (const bus::DriveSetup &drive : setup.drives)
+    if (drive.id == id)
+      if (std::string fault = lssFault(drive.parameters, setup); !fault.empty())
+        return fault;
   if (isDataSheet(setup, id))
     return "`parameters` is a file of SMC_WriteDriveParamsToFile; of a DCF, `stride can import` "
            "makes "
@@ -146,6 +177,8 @@ std::vector<EncoderPlan> planEncoders(const bus::GroupSetup &setup, SyncProducer
     }
     one.fault = encoderFault(encoder.id, setup, sync == SyncProducer::Device);
     if (one.fault.empty())
+      one.fault = lssFault(encoder.parameters, setup);
+    if (one.fault.empty())
       one.plan = planEncoder(static_cast<uint8_t>(encoder.id));
   }
   return encoders;
@@ -181,6 +214,8 @@ std::vector<IoPlan> planIos(const bus::GroupSetup &setup, SyncProducer sync) {
     IoPlan &one = ios.emplace_back(planIo(io));
     if (one.fault.empty())
       one.fault = ioFault(one.plan.node, setup, sync == SyncProducer::Device);
+    if (one.fault.empty())
+      one.fault = lssFault(io.parameters, setup);
     if (!one.fault.empty())
       one.plan = {};
   }
@@ -235,12 +270,16 @@ void checkEncoders(const bus::GroupSetup &setup, const GroupPlan &plan,
 
 } // namespace
 
+uint32_t bitRateOf(const bus::GroupSetup &setup) {
+  const auto rate = static_cast<uint32_t>(setup.parameters.number("BaudRate"));
+  return rate == 0 ? kUsualBitRate : rate;
+}
+
 GroupPlan planGroup(const bus::GroupSetup &setup) {
   GroupPlan result;
   result.sync =
       static_cast<SyncProducer>(static_cast<int>(setup.parameters.number("SyncProducer")));
-  const auto rate = static_cast<uint32_t>(setup.parameters.number("BaudRate"));
-  result.bitRate = rate == 0 ? kUsualBitRate : rate;
+  result.bitRate = bitRateOf(setup);
   result.cycle =
       static_cast<uint32_t>(std::clamp(setup.cycleSeconds * 1e6 + 0.5, 1.0, kLongestCycle));
   result.encoders = planEncoders(setup, result.sync);

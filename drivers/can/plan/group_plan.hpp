@@ -44,6 +44,9 @@ struct GroupPlan {
   BusLoad load;
 };
 
+/// BaudRate, or the usual one. [kBit/s]
+uint32_t bitRateOf(const bus::GroupSetup &setup);
+
 GroupPlan planGroup(const bus::GroupSetup &setup);
 
 /// Appends what is wrong with a group, or not good (DriverSchema::check).

@@ -133,6 +133,11 @@ struct SdoWrite {
   uint32_t value = 0;
   bool optional = false;     ///< A drive without this object goes without it.
   bool keepNoRemote = false; ///< Bit 30 stays what the drive has there.
+  /// What is longer than four bytes, or a text: all of it; `size` and `value` mean nothing then.
+  std::vector<uint8_t> bytes = {};
+
+  /// Of `bytes`, or as `size` says.
+  [[nodiscard]] size_t length() const { return bytes.empty() ? size : bytes.size(); }
 };
 
 /// Configures the PDOs of a drive: first off, then mapping and timing, then on. PDOs that are not

@@ -81,7 +81,10 @@ std::vector<uint8_t> conciseDcf(std::span<const SdoWrite> writes) {
     ++count;
     append(bytes, write.object.index, 2);
     append(bytes, write.object.sub, 1);
-    append(bytes, write.size, 4);
+    append(bytes, static_cast<uint32_t>(write.length()), 4);
+    bytes.insert(bytes.end(), write.bytes.begin(), write.bytes.end());
+    if (!write.bytes.empty())
+      continue;
     append(bytes, write.keepNoRemote ? write.value | kPdoNoRemote : write.value, write.size);
   }
   for (unsigned i = 0; i < 4; ++i)
@@ -100,6 +103,8 @@ ConfigurationStamp stampOf(std::span<const SdoWrite> writes) {
     mix(uint32_t{write.object.index} << 8U | write.object.sub);
     mix(write.size);
     mix(write.value);
+    for (const uint8_t byte : write.bytes)
+      mix(byte);
   }
   constexpr uint32_t kDayMs = 86400000;
   return {static_cast<uint32_t>(hash >> 48U) | 1U, static_cast<uint32_t>(hash % kDayMs)};

@@ -58,15 +58,25 @@ void addRows(const Widths &widths, const std::string &drive, const DrivePlan &pl
     add(pdo, "TPDO");
 }
 
+/// A longer one byte by byte, as it travels.
+std::string valueText(const SdoWrite &write) {
+  if (write.bytes.empty())
+    return hexadecimal(write.value, size_t{2} * write.size);
+  std::string text;
+  for (const uint8_t byte : write.bytes)
+    text += (text.empty() ? "" : " ") + hexadecimal(byte, 2);
+  return text;
+}
+
 void addStartUp(const Widths &widths, const std::string &drive, uint8_t node,
                 std::span<const SdoWrite> writes, std::string &text) {
   for (const SdoWrite &write : writes) {
     std::string content = hexadecimal(write.object.index, 4);
     if (write.object.sub != 0)
       content += ":" + std::to_string(write.object.sub);
-    content += " := " + hexadecimal(write.value, size_t{2} * write.size);
+    content += " := " + valueText(write);
     text += row(widths, drive, std::to_string(node), "SDO", "-", "start",
-                std::to_string(write.size), "-", content);
+                std::to_string(write.length()), "-", content);
   }
 }
 

@@ -96,6 +96,10 @@ bool CanopenNode::networkManagement(const Frame &frame) noexcept {
   }
 }
 
+bool CanopenNode::synchronizedBy(const Frame &frame) const noexcept {
+  return frame.id != 0 && frame.id == (syncId_.value & Frame::kLastId) && !frame.remote;
+}
+
 bool CanopenNode::receive(const Frame &frame, int64_t nowNs) noexcept {
   now_ = nowNs;
   if (frame.id == LssSlave::kRequestId && (hears() || id_ == kUnconfigured) && !silent_) {
@@ -108,7 +112,7 @@ bool CanopenNode::receive(const Frame &frame, int64_t nowNs) noexcept {
     return false;
   if (frame.id == 0)
     return networkManagement(frame);
-  if (frame.id == (syncId_.value & Frame::kLastId) && !frame.remote) {
+  if (synchronizedBy(frame)) {
     synchronize(frame);
     return true;
   }

@@ -43,6 +43,7 @@ public:
 
   void powerOn(int64_t nowNs) noexcept final;
   bool receive(const Frame &frame, int64_t nowNs) noexcept final;
+  [[nodiscard]] bool synchronizedBy(const Frame &frame) const noexcept final;
   void advance(int64_t nowNs) noexcept final;
   [[nodiscard]] int64_t nextNs() const noexcept final;
   bool transmit(Frame &frame) noexcept final;

@@ -14,7 +14,7 @@ struct TypeRow {
   bool isSigned;
 };
 
-constexpr std::array<TypeRow, 14> kTypes = {{{DataType::Boolean, 1, false},
+constexpr std::array<TypeRow, 18> kTypes = {{{DataType::Boolean, 1, false},
                                              {DataType::Integer8, 1, true},
                                              {DataType::Integer16, 2, true},
                                              {DataType::Integer32, 4, true},
@@ -27,6 +27,10 @@ constexpr std::array<TypeRow, 14> kTypes = {{{DataType::Boolean, 1, false},
                                              {DataType::Domain, 0, false},
                                              {DataType::Real64, 8, false},
                                              {DataType::Integer64, 8, true},
+                                             {DataType::Unsigned24, 3, false},
+                                             {DataType::Unsigned40, 5, false},
+                                             {DataType::Unsigned48, 6, false},
+                                             {DataType::Unsigned56, 7, false},
                                              {DataType::Unsigned64, 8, false}}};
 
 constexpr unsigned kByte = 8;

@@ -26,6 +26,10 @@ enum class DataType : uint8_t {
   Domain = 0x0F,
   Real64 = 0x11,
   Integer64 = 0x15,
+  Unsigned24 = 0x16,
+  Unsigned40 = 0x18,
+  Unsigned48 = 0x19,
+  Unsigned56 = 0x1A,
   Unsigned64 = 0x1B,
 };
 

@@ -23,6 +23,8 @@ constexpr uint8_t kInquireId = 0x5E;
 constexpr uint8_t kParts = 4;
 constexpr uint8_t kRanges = 6;
 constexpr uint8_t kLastId = 127;
+constexpr uint8_t kReservedBitRate = 5;
+constexpr uint8_t kLastBitRate = 8;
 
 } // namespace
 
@@ -128,8 +130,11 @@ void LssSlave::configure(const Frame &frame) noexcept {
     answer(command, valid ? 0 : kOutOfRange);
     break;
   }
-  case kConfigureBitRate: // the bus has one
-    answer(command, kOutOfRange);
+  case kConfigureBitRate: // the table of the standard, as if the node had a bit rate of its own
+    answer(command,
+           frame.data[1] == 0 && frame.data[2] <= kLastBitRate && frame.data[2] != kReservedBitRate
+               ? 0
+               : kOutOfRange);
     break;
   case kStore:
     stored_ = next_;

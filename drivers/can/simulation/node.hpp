@@ -32,6 +32,11 @@ public:
   /// and has changed nothing.
   virtual bool receive(const Frame &frame, int64_t nowNs) noexcept = 0;
 
+  /// The frame is SYNC for this node: of several that are waiting only the last one counts.
+  [[nodiscard]] virtual bool synchronizedBy(const Frame & /*frame*/) const noexcept {
+    return false;
+  }
+
   /// Does what is due until `nowNs`.
   virtual void advance(int64_t nowNs) noexcept = 0;
 

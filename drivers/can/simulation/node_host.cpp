@@ -1,13 +1,11 @@
 #include "drivers/can/simulation/node_host.hpp"
 
 #include <algorithm>
-#include <array>
+#include <span>
 
 namespace stride::can::simulation {
 namespace {
 
-/// Frames in one step at most: a bus that never rests does not keep it from what is due.
-constexpr size_t kMostFrames = 256;
 /// How soon a port that is full is asked again. [ns]
 constexpr int64_t kAgain = 200'000;
 
@@ -53,15 +51,25 @@ void NodeHost::step(int64_t nowNs) noexcept {
     for (int64_t next = member.node->nextNs(); next <= nowNs; next = member.node->nextNs())
       member.node->advance(next);
   send(nowNs);
-  std::array<Received, 16> frames;
-  size_t taken = 0;
-  for (size_t count = frames.size(); count == frames.size() && taken < kMostFrames;) {
-    count = port_.receive(frames);
-    taken += count;
-    for (size_t i = 0; i < count; ++i) {
-      tell(frames[i].frame, nullptr, nowNs);
-      send(nowNs); // an answer to each, as a node has it that is alone in its controller
-    }
+  count_ = port_.receive(frames_);
+  for (size_t i = 0; i < count_; ++i) {
+    tellReceived(i, nowNs);
+    send(nowNs); // an answer to each, as a node has it that is alone in its controller
+  }
+}
+
+/// A SYNC after which another one has come is none any more.
+void NodeHost::tellReceived(size_t place, int64_t nowNs) noexcept {
+  const Frame &frame = frames_[place].frame;
+  const auto rest = std::span<const Received>(frames_).first(count_).subspan(place + 1);
+  for (const Member &member : members_) {
+    Node &node = *member.node;
+    const bool old = node.synchronizedBy(frame) &&
+                     std::any_of(rest.begin(), rest.end(), [&node](const Received &later) {
+                       return node.synchronizedBy(later.frame);
+                     });
+    if (!old)
+      node.receive(frame, nowNs);
   }
 }
 

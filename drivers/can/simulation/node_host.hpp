@@ -6,6 +6,8 @@
 #include "drivers/can/port/port.hpp"
 #include "drivers/can/simulation/node.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,8 +23,9 @@ public:
   /// One more node, whose supply is switched on now. It must live as long as this.
   void add(Node &node, int64_t nowNs);
 
-  /// Takes what has come, does what is due, and sends. Times are those of the host's clock and
-  /// never go back. [ns]
+  /// Takes what has come, does what is due, and sends. Of several SYNCs that have come meanwhile
+  /// only the last one is answered, as a device does that works off its queue late. Times are those
+  /// of the host's clock and never go back. [ns]
   void step(int64_t nowNs) noexcept;
 
   /// When step has something to do, unless a frame comes before that. [ns]
@@ -36,11 +39,17 @@ private:
   };
 
   void tell(const Frame &frame, const Node *sender, int64_t nowNs) noexcept;
+  void tellReceived(size_t place, int64_t nowNs) noexcept;
   void send(int64_t nowNs) noexcept;
+
+  /// Frames in one step at most: a bus that never rests does not keep it from what is due.
+  static constexpr size_t kMostFrames = 256;
 
   Port &port_;
   std::vector<Member> members_;
-  bool off_ = false; ///< The port was off the bus.
+  std::array<Received, kMostFrames> frames_{}; ///< Of this step …
+  size_t count_ = 0;                           ///< … and their number.
+  bool off_ = false;                           ///< The port was off the bus.
   int64_t lastNs_ = 0;
 };
 

@@ -51,6 +51,9 @@ void DriveAxis::begin(const ScalingFacts &facts, uint8_t missing,
   const uint32_t place = config_.settings.cyclic.at.placeOf(idns::kPositionFeedback1);
   const bool has = place != 0 && telegram.size() >= place + 4U;
   positions_.begin(moduloOf(facts), has ? longAt(telegram, place) : 0);
+  const uint32_t second = config_.settings.cyclic.at.placeOf(idns::kPositionFeedback2);
+  const bool hasSecond = second != 0 && telegram.size() >= second + 4U;
+  seconds_.begin(moduloOf(facts), hasSecond ? longAt(telegram, second) : 0);
   before_ = lastTarget_ = positions_.counter();
   command_.position = before_;
   read(telegram);
@@ -59,8 +62,10 @@ void DriveAxis::begin(const ScalingFacts &facts, uint8_t missing,
 void DriveAxis::end() {
   const bus::DriveStatus old = status_;
   const bool shuts = shutDown_;
-  *this = DriveAxis(std::move(config_)); // within a cycle: what lies on the heap stays there
+  const PositionCounter seconds = seconds_; // nobody jumps because a drive is gone
+  *this = DriveAxis(std::move(config_));    // within a cycle: what lies on the heap stays there
   shutDown_ = shuts;
+  seconds_ = seconds;
   status_.position = old.position;
   status_.controllerMode = old.controllerMode;
   command_.position = old.position;
@@ -89,6 +94,8 @@ void DriveAxis::readActual(std::span<const uint8_t> telegram) {
   const CyclicRecord &at = config_.settings.cyclic.at;
   if (const uint32_t place = at.placeOf(idns::kPositionFeedback1); place != 0)
     positions_.show(longAt(telegram, place));
+  if (const uint32_t place = at.placeOf(idns::kPositionFeedback2); place != 0)
+    seconds_.show(longAt(telegram, place));
   if (const uint32_t place = at.placeOf(idns::kVelocityFeedback); place != 0)
     status_.velocity = longAt(telegram, place) * velocityUnit_;
   if (const uint32_t place = at.placeOf(idns::kTorqueFeedback); place != 0)

@@ -37,6 +37,8 @@ public:
   void command(const bus::DriveCommand &command) { command_ = command; }
   /// Without `communication`.
   [[nodiscard]] const bus::DriveStatus &status() const { return status_; }
+  /// What its second encoder shows (S-0-0053), as a counter of 32 bits; 0: it has none. [inc]
+  [[nodiscard]] uint32_t secondPosition() const { return seconds_.counter(); }
   /// Bit n stands for mode n.
   [[nodiscard]] uint8_t controllerModes() const;
   /// It is switched off, whatever the command says: it stops as well as it can.
@@ -75,6 +77,7 @@ private:
   HomingRun homing_;
   Probes probes_;
   PositionCounter positions_;
+  PositionCounter seconds_; ///< Of S-0-0053.
   double velocityUnit_ = 1; ///< [inc/s]
   double torqueUnit_ = 1;   ///< [Nm]
   uint32_t before_ = 0;     ///< Position of the cycle before. [inc]

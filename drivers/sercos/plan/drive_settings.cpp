@@ -141,7 +141,7 @@ bool isOwnedByDriver(Idn idn) {
                      [idn](const OwnedRow &row) { return row.idn == idn; });
 }
 
-DriveSettings driveSettings(const common::SetupParameters &given) {
+DriveSettings driveSettings(const common::SetupParameters &given, bool secondEncoder) {
   DriveSettings settings;
   settings.io = given.text("device_type") == "io";
   settings.profile = static_cast<PackProfile>(static_cast<int>(given.number("packprofile")));
@@ -158,6 +158,9 @@ DriveSettings driveSettings(const common::SetupParameters &given) {
   }
   wish.more = reader.readObjects("additional");
   wish.moreSent = reader.readObjects("additional_sent");
+  const CyclicObject second{idns::kPositionFeedback2, 4};
+  if (secondEncoder && std::find(wish.more.begin(), wish.more.end(), second) == wish.more.end())
+    wish.more.push_back(second);
   settings.cyclic = planCyclic(wish, settings.errors);
   for (std::string &fault : profileFaults(settings.profile, given, settings.cyclic))
     settings.errors.push_back(std::move(fault));

@@ -26,7 +26,8 @@ struct DriveSettings {
   std::vector<std::string> errors; ///< What of it cannot be so.
 };
 
-DriveSettings driveSettings(const common::SetupParameters &given);
+/// `secondEncoder`: position feedback value 2 (S-0-0053) comes in each cycle, too.
+DriveSettings driveSettings(const common::SetupParameters &given, bool secondEncoder = false);
 
 /// Whether the driver itself writes an IDN from the times of the ring and the telegrams.
 bool isOwnedByDriver(Idn idn);

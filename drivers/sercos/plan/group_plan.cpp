@@ -1,6 +1,7 @@
 #include "drivers/sercos/plan/group_plan.hpp"
 
 #include "drivers/sercos/protocol/words.hpp"
+#include "runtime/common/text.hpp"
 
 #include <algorithm>
 
@@ -52,10 +53,29 @@ std::string ringFault(const GroupPlan &plan, size_t drives) {
          milliseconds(plan.cycle) + " at " + std::to_string(plan.megabits) + " MBit/s";
 }
 
+EncoderPlan encoderPlan(const bus::GroupSetup &setup, const bus::EncoderSetup &encoder) {
+  const std::string name = common::lowerCase(encoder.parameters.text("second_of"));
+  const auto drive =
+      std::find_if(setup.drives.begin(), setup.drives.end(), [&name](const bus::DriveSetup &one) {
+        return common::lowerCase(one.name) == name;
+      });
+  EncoderPlan plan;
+  plan.drive = static_cast<size_t>(drive - setup.drives.begin());
+  if (name.empty())
+    plan.fault = "on a Sercos ring it is the second encoder of a drive (`second_of`)";
+  else if (drive == setup.drives.end())
+    plan.fault = "its drive is not in this axis group";
+  else if (drive->parameters.text("device_type") == "io")
+    plan.fault = "its drive is an I/O device";
+  return plan;
+}
+
 } // namespace
 
 GroupPlan planGroup(const bus::GroupSetup &setup) {
   GroupPlan plan;
+  for (const bus::EncoderSetup &encoder : setup.encoders)
+    plan.encoders.push_back(encoderPlan(setup, encoder));
   plan.megabits = megabitsOf(setup.parameters);
   plan.cycle =
       static_cast<uint32_t>(std::clamp(setup.cycleSeconds * 1e6 + 0.5, 1.0, kLongestCycle));
@@ -64,7 +84,12 @@ GroupPlan planGroup(const bus::GroupSetup &setup) {
     plan.light = static_cast<uint32_t>(setup.parameters.number("LedBrightness"));
   std::vector<DriveTiming> timings;
   for (const bus::DriveSetup &drive : setup.drives) {
-    plan.drives.push_back(driveSettings(drive.parameters));
+    const size_t place = plan.drives.size();
+    const bool second =
+        std::any_of(plan.encoders.begin(), plan.encoders.end(), [place](const EncoderPlan &one) {
+          return one.fault.empty() && one.drive == place;
+        });
+    plan.drives.push_back(driveSettings(drive.parameters, second));
     const DriveSettings &settings = plan.drives.back();
     plan.faults.push_back(faultOf(settings, drive.id, setup));
     DriveTiming timing;
@@ -95,12 +120,12 @@ void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
                                   "sees none",
                           "served without it", "the drive itself stops at its limit switches"});
   }
-  if (!setup.encoders.empty())
-    findings.push_back({true, bus::GroupFinding::kGroup,
-                        "a Sercos ring has no encoders: they belong to drives",
-                        "its encoders cannot be served",
-                        "take S-0-0053 into `additional` of the drive, and feed the encoder in the "
-                        "program"});
+  for (size_t i = 0; i < plan.encoders.size(); ++i)
+    if (!plan.encoders[i].fault.empty())
+      findings.push_back({true, bus::GroupFinding::kGroup,
+                          "encoder `" + setup.encoders[i].name +
+                              "` cannot be on a Sercos ring so: " + plan.encoders[i].fault,
+                          "its encoder cannot be served", ""});
   if (plan.fault.empty())
     return;
   const bool slow = isBaudRate(plan.megabits) && isCycle(plan.cycle) && !plan.timing.fits;

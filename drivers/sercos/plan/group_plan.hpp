@@ -14,14 +14,21 @@
 
 namespace stride::sercos {
 
+/// An encoder of the group: the second one of a drive.
+struct EncoderPlan {
+  size_t drive = 0;  ///< Whose; as many as there are drives: it has none.
+  std::string fault; ///< Why it cannot be read; empty: nothing.
+};
+
 struct GroupPlan {
   uint32_t megabits = 2; ///< [MBit/s]
   uint32_t cycle = 0;    ///< [µs]
   uint32_t light = 0;    ///< wParam2, LedBrightness.
   std::vector<DriveSettings> drives;
   std::vector<std::string> faults; ///< Of each drive: why it cannot start; empty: nothing.
-  std::string fault;               ///< Of the ring as a whole.
-  RingTiming timing;               ///< With what drives have usually; start-up asks them.
+  std::vector<EncoderPlan> encoders;
+  std::string fault; ///< Of the ring as a whole.
+  RingTiming timing; ///< With what drives have usually; start-up asks them.
 };
 
 GroupPlan planGroup(const bus::GroupSetup &setup);

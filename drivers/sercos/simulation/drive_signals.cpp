@@ -12,6 +12,7 @@ namespace stride::sercos::simulation {
 namespace {
 
 using dummy::rising;
+using dummy::rounded;
 using dummy::rounded16;
 using dummy::rounded32;
 

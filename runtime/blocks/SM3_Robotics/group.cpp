@@ -130,7 +130,9 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) {
                                     stopsAtOnce(group, state),
                                     state.rides != 0 ? stateOfCarrier(group, state.rides)
                                                      : motion::State{},
-                                    state.jerk};
+                                    state.jerk,
+                                    state.accelerationPart,
+                                    state.jerkPart};
   planGroup(group, arm, command);
   state.forecast = group::plannedTime(state.motion);
   state.rest = {exact::kInfinity, 0};
@@ -248,10 +250,32 @@ int16_t whyNotReady(const GroupRef &group) noexcept {
   return 0;
 }
 
+namespace {
+
+/// Takes a request that is in order, or notes that it has been refused: movements that are
+/// commanded later in the cycle to follow it would begin elsewhere than planned, and are aborted.
+int16_t admit(const Ctx &ctx, GroupRef &group, Request &request) {
+  GroupState &state = stateOf(group);
+  const uint64_t now = ctx.cycle + 1;
+  const int16_t refusal = enqueue(group, request);
+  if (refusal != 0) {
+    if (request.kind != RequestKind::Halt)
+      state.refused = now;
+  } else if (aborts(request)) {
+    state.refused = 0;
+  } else if (state.refused == now) {
+    --state.nextRequest;
+    group::setOutcome(state.motion, request.id, group::Outcome::Aborted);
+  }
+  return refusal;
+}
+
+} // namespace
+
 int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
   int16_t refusal = whyNotReady(group);
   if (refusal == 0)
-    refusal = enqueue(group, request);
+    refusal = admit(ctx, group, request);
   const bool hasPlaces = request.kind != RequestKind::Halt;
   bindTriggers(group, ctx.cycle + 1, request.id,
                hasPlaces ? refusal : error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
@@ -259,22 +283,22 @@ int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
     return refusal;
   GroupArm arm(ctx, group);
   takeRequests(group, arm);
-  const GroupState &state = stateOf(group);
-  return group::outcomeOf(state.motion, request.id) == group::Outcome::Failed
-             ? state.error[request.id % group::kOutcomes]
-             : int16_t{0};
+  GroupState &state = stateOf(group);
+  if (group::outcomeOf(state.motion, request.id) != group::Outcome::Failed)
+    return 0;
+  state.refused = ctx.cycle + 1;
+  return state.error[request.id % group::kOutcomes];
 }
 
-int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration, double jerk) {
+int16_t beginStop(Ctx &ctx, GroupRef &group, const Request &stop) {
   bindTriggers(group, ctx.cycle + 1, 0, error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
   if (!takesMovements(group) && group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
-  if (!(deceleration >= 0.0) || !(jerk >= 0.0))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+  if (const int16_t wrong = wrongHalt(stop); wrong != 0)
+    return wrong;
   GroupState &state = stateOf(group);
   abortAll(state, true);
-  state.deceleration = deceleration;
-  state.jerk = jerk;
+  setBraking(state, stop);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStopping;
   return 0;
 }

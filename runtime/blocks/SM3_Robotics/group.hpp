@@ -55,7 +55,7 @@ struct Request {
   int16_t circleMode;        ///< Circular: SMC_CIRC_MODE
   int16_t pathChoice;        ///< Circular: MC_CIRC_PATHCHOICE
   double aux[kArmAxes]; ///< Circular: AuxPoint, like `position`. Jog: how far at most [u], [°].
-  group::Order order;   ///< But for its configuration.
+  group::Order order;   ///< But for its configuration. Halt: factors of acceleration and jerk.
   double deceleration;  ///< Halt: see MC_GroupHalt. [u/s^2]
   double jerk;          ///< Likewise. [u/s^3]
   bool forgets;         ///< Halt: what it aborts cannot be continued.
@@ -74,12 +74,15 @@ struct GroupState {
   double end[kAxes];               ///< Axes where the movements end that have been taken. [u]
   double deceleration;             ///< Of the present stop. [u/s^2]
   double jerk;                     ///< Likewise. [u/s^3]
+  double accelerationPart;         ///< Likewise: see group::GroupCommand.
+  double jerkPart;                 ///< Likewise.
   uint64_t lastAccepted;           ///< The movement that has been taken last.
   group::Pose endPose;             ///< Where these end, in the path's system, if that moves.
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
   Tool tool;                       ///< Of the movements.
   uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
+  uint64_t refused;   ///< The last cycle, plus 1, in which a movement was refused in its own call.
   bool interrupting;  ///< It comes to rest to be continued later.
   ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Of the movements.
   double orientationLag;                             ///< Behind the system that is followed. [°]
@@ -108,7 +111,7 @@ bool takesMovements(const GroupRef &group) noexcept;
 int16_t ask(Ctx &ctx, GroupRef &group, Request &request);
 
 /// Lets MC_GroupStop begin, and end.
-int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration, double jerk);
+int16_t beginStop(Ctx &ctx, GroupRef &group, const Request &stop);
 void endStop(GroupRef &group);
 
 /// Lets the group go on by the present cycle, unless it has done so.

@@ -182,7 +182,7 @@ void beginInterrupt(decl::MC_GroupInterrupt &block, GroupRef &group) noexcept {
     setError(block, error::SMC_ERROR__SMC_AXIS_GROUP_NOT_RESUMABLE);
     return;
   }
-  state.deceleration = state.jerk = 0.0;
+  setBraking(state, Request{});
   state.interrupting = true;
   block.stBlock.bRunning = 1;
 }

@@ -169,6 +169,7 @@ void begin(Ctx &ctx, decl::SMC_GroupJog2 &block, GroupRef &group, bool any) {
     if (block.stBlock.bRunning == 0)
       return;
     request.kind = RequestKind::Halt;
+    request.order.accelerationFactor = request.order.jerkFactor = request.torqueFactor = 1.0;
     request.bufferMode = buffer::MC_BUFFER_MODE__Aborting;
   }
   const int16_t wrong = any && block.ABC_as_ACS != 0

@@ -94,6 +94,9 @@ void decl::MC_GroupHalt::body__(::stride::Ctx &ctx__) {
     request.bufferMode = buffer::MC_BUFFER_MODE__Aborting;
     request.deceleration = Deceleration;
     request.jerk = Jerk;
+    request.order.accelerationFactor = AccFactor;
+    request.order.jerkFactor = JerkFactor;
+    request.torqueFactor = TorqueFactor;
     request.forgets = ClearMovements != 0;
   });
   Active = Busy;
@@ -103,9 +106,15 @@ void decl::MC_GroupStop::body__(::stride::Ctx &ctx__) {
   if (AxisGroup != nullptr)
     robotics::serve(ctx__, *AxisGroup);
   if (robotics::rises(*this)) {
-    const int16_t error = AxisGroup != nullptr
-                              ? robotics::beginStop(ctx__, *AxisGroup, Deceleration, Jerk)
-                              : robotics::kNoGroup;
+    Request stop = {};
+    stop.kind = robotics::RequestKind::Halt;
+    stop.deceleration = Deceleration;
+    stop.jerk = Jerk;
+    stop.order.accelerationFactor = AccFactor;
+    stop.order.jerkFactor = JerkFactor;
+    stop.torqueFactor = 1.0;
+    const int16_t error =
+        AxisGroup != nullptr ? robotics::beginStop(ctx__, *AxisGroup, stop) : robotics::kNoGroup;
     robotics::setError(*this, error);
     stBlock.bRunning = error == 0;
     Done = CommandAborted = 0;

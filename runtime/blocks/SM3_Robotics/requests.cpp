@@ -34,9 +34,7 @@ bool leadsTool(const Request &request) noexcept {
 /// What is wrong with the inputs of a movement: an SMC_ERROR.
 int16_t wrongInput(const Request &request) noexcept {
   if (request.kind == RequestKind::Halt)
-    return request.deceleration >= 0.0 && request.jerk >= 0.0
-               ? int16_t{0}
-               : error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+    return wrongHalt(request);
   const group::Order &order = request.order;
   if (request.bufferMode < buffer::MC_BUFFER_MODE__Aborting ||
       request.bufferMode > buffer::MC_BUFFER_MODE__BlendingHigh)
@@ -289,6 +287,35 @@ bool aborts(const Request &request) noexcept {
   return request.bufferMode == buffer::MC_BUFFER_MODE__Aborting;
 }
 
+int16_t wrongHalt(const Request &halt) noexcept {
+  const group::Order &order = halt.order;
+  if (!isFactor(order.accelerationFactor) || !isFactor(order.jerkFactor) ||
+      !isFactor(halt.torqueFactor))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_FACTOR;
+  return halt.deceleration >= 0.0 && halt.jerk >= 0.0
+             ? int16_t{0}
+             : error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+}
+
+void setBraking(GroupState &state, const Request &request) noexcept {
+  state.deceleration = request.deceleration;
+  state.jerk = request.jerk;
+  state.accelerationPart = state.jerkPart = 1.0;
+  if (request.kind != RequestKind::Halt)
+    return;
+  // Strips know limits with the factors of their movements.
+  const GroupMotion &motion = state.motion;
+  for (int64_t k = motion.first; k < motion.next; ++k) {
+    const group::Order &order = motion.movement[static_cast<uint64_t>(k) % group::kMovements].order;
+    const group::Order &halt = request.order;
+    if (order.dwell > 0.0)
+      continue;
+    state.accelerationPart =
+        exact::smaller(state.accelerationPart, halt.accelerationFactor / order.accelerationFactor);
+    state.jerkPart = exact::smaller(state.jerkPart, halt.jerkFactor / order.jerkFactor);
+  }
+}
+
 double speedOf(const GroupMotion &motion, const group::Order &order) noexcept {
   if (motion.first < motion.next) {
     const group::Movement &last =
@@ -331,8 +358,7 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
   if (aborts(request)) {
     abortAll(state, false);
-    state.deceleration = request.deceleration;
-    state.jerk = request.jerk;
+    setBraking(state, request);
   }
   if (state.nextRequest - state.firstRequest == kRequests)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;

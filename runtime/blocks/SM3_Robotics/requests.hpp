@@ -62,6 +62,12 @@ double speedOf(const group::GroupMotion &motion, const group::Order &order) noex
 /// What waits is over, and movements with it; what has been kept to be continued, too, if `all`.
 void abortAll(GroupState &state, bool all) noexcept;
 
+/// What is wrong with the inputs of MC_GroupHalt or MC_GroupStop: an SMC_ERROR.
+int16_t wrongHalt(const Request &halt) noexcept;
+
+/// How the group comes to rest for a request that stops it, or for another one.
+void setBraking(GroupState &state, const Request &request) noexcept;
+
 /// Nothing is followed any more: all rests. A path in a system that moves cannot be continued.
 void forgetSystems(GroupState &state) noexcept;
 

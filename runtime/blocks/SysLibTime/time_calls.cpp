@@ -1,16 +1,15 @@
 // SysLibTime.
+#include "runtime/blocks/civil_date.hpp"
 #include "runtime/blocks/host_side.hpp"
 
 #include "st/SysLibTime/CurTime.h"
 #include "st/SysLibTime/CurTimeEx.h"
 #include "st/SysLibTime/SysTime64.h"
-#include "st/SysLibTime/SysTimeGetMs.h"
-#include "st/SysLibTime/SysTimeGetUs.h"
 #include "st/SysLibTime/SystemTimeDate.h"
 
 namespace {
 
-constexpr int64_t kDayMs = 86'400'000;
+using stride::system::kDayMs;
 
 /// Microseconds since 1970.
 int64_t wallClockUs(const stride::Ctx &ctx) {
@@ -23,32 +22,17 @@ void setTime(st::SysLibTime::SysTime64 &time, int64_t us) {
   time.ulHigh = static_cast<stride::DWORD>(us >> 32);
 }
 
-/// The calendar in eras of 400 years that begin on a 1st of March, so that a leap day is the last
-/// day of its year.
 void setDate(st::SysLibTime::SystemTimeDate &date, int64_t days) {
-  const int64_t shifted = days + 719'468; // 0000-03-01
-  const int64_t era = shifted / 146'097;
-  const int64_t day = shifted - era * 146'097;
-  const int64_t year = (day - day / 1'460 + day / 36'524 - day / 146'096) / 365;
-  const int64_t ofYear = day - (365 * year + year / 4 - year / 100);
-  const int64_t month = (5 * ofYear + 2) / 153; // from March on
-  date.Day = static_cast<stride::UINT>(ofYear - (153 * month + 2) / 5 + 1);
-  date.Month = static_cast<stride::UINT>(month < 10 ? month + 3 : month - 9);
-  date.Year = static_cast<stride::UINT>(era * 400 + year + (month < 10 ? 0 : 1));
+  const stride::system::CivilDate civil = stride::system::civilDateOf(days);
+  date.Day = static_cast<stride::UINT>(civil.day);
+  date.Month = static_cast<stride::UINT>(civil.month);
+  date.Year = static_cast<stride::UINT>(civil.year);
   date.DayOfWeek = static_cast<stride::UINT>((days + 4) % 7); // 1970-01-01 was a Thursday
 }
 
 } // namespace
 
 namespace st::SysLibTime {
-
-::stride::UDINT SysTimeGetMs(::stride::Ctx &ctx__) {
-  return static_cast<::stride::UDINT>(ctx__.cycleStartNs / 1'000'000);
-}
-
-::stride::ULINT SysTimeGetUs(::stride::Ctx &ctx__) {
-  return static_cast<::stride::ULINT>(ctx__.cycleStartNs / 1000);
-}
 
 void CurTime::body__(::stride::Ctx &ctx__) {
   if (SystemTime == nullptr)

@@ -164,8 +164,8 @@ void wish(Interpolator &interpolator, const Command &command) noexcept {
   const double override = interpolator.backwards ? -command.override : command.override;
   const bool moves = override > kLeastOverride;
   wish.stop = command.slowStop || command.quickStop || command.emergencyStop || !moves;
-  wish.settings = {command.law, command.jerk, command.share};
-  wish.deceleration = command.quickStop ? larger(command.quickDeceleration, 0.0) : 0.0;
+  wish.settings = {command.law, command.jerk, command.share, false};
+  wish.braking.deceleration = command.quickStop ? larger(command.quickDeceleration, 0.0) : 0.0;
   if (moves)
     wish.override = dryRunVelocity(command) < exact::kInfinity ? smaller(override, 1.0) : override;
   limitStep(interpolator, command);
@@ -274,7 +274,7 @@ void drive(Interpolator &interpolator, const Command &command) noexcept {
 
 void start(Interpolator &interpolator, const Command &command) noexcept {
   interpolator = Interpolator{};
-  path::reset(interpolator.motion, {command.law, command.jerk, command.share});
+  path::reset(interpolator.motion, {command.law, command.jerk, command.share, false});
   interpolator.progress.source = -1;
 }
 

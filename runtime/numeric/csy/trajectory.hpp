@@ -1,8 +1,11 @@
 // A path of the module TSX CSY 85: its pieces over the position of the master, and the cams made of
 // it. The master's position is the way along the path, where a blend by a polynomial counts as long
 // as the two lengths that it takes from the lines.
-// Source: TSX CSY 85 configuration manual 35010452, chapter 4. What it shows in figures only has
-// been found from its numbers; docs/csy.md says what. Free of the C++ standard library.
+// Source: TSX CSY 85 configuration manual 35010452, chapter 4. What it shows in figures only
+// follows from its printed numbers or is a judgement: blends are Hermite polynomials whose tangents
+// are KF/100 of both lengths; type 10 takes its length from both lines; its arc above half a turn
+// is the rest of the same circle; a blend next to an arc or at the end is 9514. Free of the C++
+// standard library.
 #ifndef STRIDE_RUNTIME_NUMERIC_CSY_TRAJECTORY_HPP
 #define STRIDE_RUNTIME_NUMERIC_CSY_TRAJECTORY_HPP
 

@@ -15,7 +15,8 @@ using numeric::Vector3;
 inline constexpr uint32_t kMostPoints = 200;
 inline constexpr uint32_t kMostPointsOfOldFirmware = 60;
 
-/// Codes of the interpolation, as the manual's chapter of error codes lists them.
+/// Codes of the interpolation, as the manual's chapter of error codes lists them; those of cams,
+/// groups and axes are for the module.
 enum class PathError : int16_t {
   None = 0,
   BlendLength = 9501,      ///< A length of a blend is not above 0.

@@ -9,7 +9,7 @@ namespace {
 using exact::smaller;
 
 /// The jerk of the law: strips say what is allowed.
-constexpr path::MotionSettings kSettings{path::LawKind::Jerk, 1e30, 1.0};
+constexpr path::MotionSettings kSettings{path::LawKind::Jerk, 1e30, 1.0, true};
 
 /// By how much an axis may exceed its velocity because of a system that changes its own.
 constexpr double kTooFast = 1.1;
@@ -147,8 +147,7 @@ void put(GroupMotion &group, const Arm &arm, const path::WayState &state) noexce
 void wish(GroupMotion &group, const GroupCommand &command) noexcept {
   path::Wish &wish = group.motion.wish;
   wish.stop = command.stop || !(command.override > 0.0);
-  wish.deceleration = command.stop ? command.deceleration : 0.0;
-  wish.jerk = command.stop ? command.jerk : 0.0;
+  wish.braking = brakingOf(command);
   group.motion.keep = command.keep;
   group.motion.atOnce = command.atOnce;
   if (command.override > 0.0)

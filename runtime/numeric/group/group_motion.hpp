@@ -112,7 +112,17 @@ struct GroupCommand {
   motion::State carrier{}; ///< Of the system that is followed, at the end of the cycle. [u] or [°]
   double jerk = 0.0;       ///< To stop with, as far as the axes allow it, if it is more than the
                            ///< movement's; in units of the way. [u/s^3]
+  double accelerationPart = 1.0; ///< To stop: of what movements allow of the axes' accelerations,
+                                 ///< above 0 up to 1. What bends take is not made less.
+  double jerkPart = 1.0;         ///< Likewise.
 };
+
+/// What a stop asks for; else nothing.
+inline path::Braking brakingOf(const GroupCommand &command) noexcept {
+  if (!command.stop)
+    return {};
+  return {command.deceleration, command.jerk, command.accelerationPart, command.jerkPart};
+}
 
 /// Trivially copyable, may be moved in memory between two calls.
 struct GroupMotion {

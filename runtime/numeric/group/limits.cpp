@@ -76,6 +76,53 @@ Obstacle take(const Arm &arm, const Track &track, double way, Look &look, Sample
   return Obstacle::None;
 }
 
+/// Whether each axis is that near to where it is now that it can only be there: less than half a
+/// turn away.
+bool isNear(const Arm &arm, const Sample &sample, const Look &look) noexcept {
+  constexpr double kNear = 170.0; // [°]
+  for (int32_t k = 0; k < axisCount(arm); ++k)
+    if (hasAxis(arm, k) && !(fabs(sample.d[0][k] - look.reference[k]) < kNear))
+      return false;
+  return true;
+}
+
+/// The same, of what has been kept where it is that place, but for rounding.
+Obstacle takeKept(const Arm &arm, const Track &track, double way, Look &look,
+                  Sample &sample) noexcept {
+  constexpr double kRounding = 1e-12;
+  while (look.keptCount > 0 && look.kept[look.keptCount - 1].way < look.from)
+    --look.keptCount;
+  for (int32_t k = look.keptCount - 1; k >= 0; --k) {
+    if (!(fabs(look.kept[k].way - way) <= kRounding * way) || !isNear(arm, look.kept[k], look))
+      continue;
+    sample = look.kept[k];
+    ++look.samples; // of what a cycle may look at: the path is made known when it was before
+    return Obstacle::None;
+  }
+  return take(arm, track, way, look, sample);
+}
+
+/// Keeps a place at the end of a part that has become shorter; of too many the furthest goes.
+void keep(const Sample &sample, Look &look) noexcept {
+  int32_t place = look.keptCount;
+  while (place > 0 && look.kept[place - 1].way < sample.way)
+    --place;
+  if (place > 0 && look.kept[place - 1].way == sample.way)
+    return;
+  if (look.keptCount == kKeptSamples) {
+    if (place == 0)
+      return;
+    for (int32_t k = 1; k < place; ++k)
+      look.kept[k - 1] = look.kept[k];
+    look.kept[place - 1] = sample;
+    return;
+  }
+  for (int32_t k = look.keptCount; k > place; --k)
+    look.kept[k] = look.kept[k - 1];
+  look.kept[place] = sample;
+  ++look.keptCount;
+}
+
 /// How far the middle is from where a straight line has it, over the axes, in units of their
 /// limits.
 bool isEven(const Arm &arm, const Sample &a, const Sample &m, const Sample &b) noexcept {
@@ -292,17 +339,17 @@ Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, 
   Obstacle obstacle = Obstacle::None;
   if (look.goesOn) {
     begin = look.end;
-    ++look.samples; // of what a cycle may look at: the path is made known when it was before
+    ++look.samples; // as for those that are kept
   } else {
     obstacle = take(arm, track, look.from, look, begin);
   }
   if (obstacle != Obstacle::None)
     return obstacle;
   Peaks peaks{};
-  obstacle = take(arm, track, look.to, look, end);
+  obstacle = takeKept(arm, track, look.to, look, end);
   while (obstacle == Obstacle::None) {
     const double half = look.from + 0.5 * (look.to - look.from);
-    obstacle = take(arm, track, half, look, middle);
+    obstacle = takeKept(arm, track, half, look, middle);
     if (obstacle != Obstacle::None)
       return obstacle;
     if (isEven(arm, begin, middle, end)) {
@@ -316,6 +363,7 @@ Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, 
       break;
     }
     look.to = half;
+    keep(end, look);
     end = middle;
   }
   if (obstacle != Obstacle::None)

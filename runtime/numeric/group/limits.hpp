@@ -65,15 +65,19 @@ struct Sample {
   double speedChange; ///< Its derivative.
 };
 
-/// A part of a track that is being looked at.
+inline constexpr int32_t kKeptSamples = 5;
+
+/// A part of a track that is being looked at. All zero at first, but for what is asked for.
 struct Look {
-  double from;             ///< Way along the track. [u]
-  double to;               ///< It ends at most there. [u]
-  double least;            ///< It need not be shorter, however the axes' velocities change. [u]
-  double reference[kAxes]; ///< Axes at `from`; afterwards at its end. [u]
-  int32_t samples;         ///< How many places have been looked at, so far.
-  Sample end;              ///< At the end of the part before.
-  bool goesOn;             ///< This part begins there.
+  double from;               ///< Way along the track. [u]
+  double to;                 ///< It ends at most there. [u]
+  double least;              ///< It need not be shorter, however the axes' velocities change. [u]
+  double reference[kAxes];   ///< Axes at `from`; afterwards at its end. [u]
+  int32_t samples;           ///< How many places have been looked at, so far.
+  Sample end;                ///< At the end of the part before.
+  bool goesOn;               ///< This part begins there.
+  int32_t keptCount;         ///< Of places after it that have been looked at in vain,
+  Sample kept[kKeptSamples]; ///< the nearest last: parts that follow may need them.
 };
 
 /// Puts what limits the motion from look.from on into a strip, but for its end and what is there.

@@ -310,9 +310,12 @@ double neededWay(const GroupMotion &group) noexcept {
     return kInfinity;
   const path::Strip &strip = path::stripAt(course, course.next - 1);
   const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
-  const double rate = smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
-  const double way =
-      0.5 * velocity * path::rampTime(velocity, rate, static_cast<double>(strip.jerk));
+  const path::Braking &braking = group.motion.wish.braking; // softer stops need more
+  const auto partOf = [](double part) { return part > 0.0 ? part : 1.0; };
+  const double rate = smaller(smaller(strip.acceleration, strip.deceleration),
+                              partOf(braking.accelerationPart) / strip.along);
+  const double jerk = static_cast<double>(strip.jerk) * partOf(braking.jerkPart);
+  const double way = 0.5 * velocity * path::rampTime(velocity, rate, jerk);
   return group.motion.way + neededAhead(group, {velocity, way});
 }
 

@@ -188,8 +188,7 @@ void stand(GroupMotion &planner, const PlanningJob &job, double interval) noexce
 void wish(GroupMotion &planner, const GroupCommand &command) noexcept {
   path::Motion &motion = planner.motion;
   motion.wish.stop = command.stop || !(command.override > 0.0);
-  motion.wish.deceleration = command.stop ? command.deceleration : 0.0;
-  motion.wish.jerk = command.stop ? command.jerk : 0.0;
+  motion.wish.braking = brakingOf(command);
   if (command.override > 0.0)
     motion.wish.override = command.override;
   motion.keep = command.keep;
@@ -234,6 +233,9 @@ void answerWith(const GroupMotion &planner, PlanningMail &mail) noexcept {
 
 bool follow(GroupMotion &group, GroupPlanning &planning, const GroupCommand &command) noexcept {
   prepare(group, command);
+  // What is known of the path may be too short for a softer stop, and no more becomes known.
+  path::Braking &braking = group.motion.wish.braking;
+  braking.accelerationPart = braking.jerkPart = 0.0;
   bool taken = false;
   if (holderOf(planning) == MailHolder::Answered) {
     taken = receive(group, planning);

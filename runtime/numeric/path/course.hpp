@@ -65,14 +65,31 @@ inline double beginOf(const Course &course, int64_t number) noexcept {
 /// Way at the end of all of it. [u]
 inline double endOf(const Course &course) noexcept { return beginOf(course, course.next); }
 
-/// The greatest tangential jerk in a strip for a law with `most`. `least`: for a stop, what it asks
-/// for whatever the strip says, as far as there is to spare. [u/s^3]
-inline double jerkIn(const Strip &strip, double most, double least = 0.0) noexcept {
+/// What a stop asks for besides what strips say.
+struct Braking {
+  double deceleration;     ///< It may brake with that at least. [u/s^2]
+  double jerk;             ///< Likewise, as far as there is to spare. [u/s^3]
+  double accelerationPart; ///< Of what the axes allow along the path, up to 1; 0: all of it.
+  double jerkPart;         ///< Likewise.
+};
+
+/// The greatest deceleration in a strip, without regard to bends. [u/s^2]
+inline double decelerationIn(const Strip &strip, const Braking &braking) noexcept {
+  const double most = exact::larger(strip.deceleration, braking.deceleration);
+  const double part = braking.accelerationPart;
+  return part > 0.0 && part < 1.0 ? exact::smaller(most, part / strip.along) : most;
+}
+
+/// The greatest tangential jerk in a strip for a law with `most`. [u/s^3]
+inline double jerkIn(const Strip &strip, double most, const Braking &braking = {}) noexcept {
   if (!(strip.jerk > 0.0F))
     return most;
   const auto own = static_cast<double>(strip.jerk);
-  const double more = exact::smaller(least, spareJerk(strip));
-  return exact::smaller(exact::larger(own, more), most);
+  const double more = exact::smaller(braking.jerk, spareJerk(strip));
+  double jerk = exact::larger(own, more);
+  if (braking.jerkPart > 0.0 && braking.jerkPart < 1.0)
+    jerk = exact::smaller(jerk, braking.jerkPart * exact::larger(own, spareJerk(strip)));
+  return exact::smaller(jerk, most);
 }
 
 /// The greatest square of the velocity in a strip, and at its end. `override` is 1 for what the

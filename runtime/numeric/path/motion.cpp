@@ -42,11 +42,12 @@ void leavePiece(Motion &motion, double left) noexcept {
 
 void reset(Motion &motion, const MotionSettings &settings) noexcept {
   motion = Motion{};
-  motion.wish = {1.0, exact::kInfinity, 0.0, 0.0, false, settings};
+  motion.wish = {1.0, exact::kInfinity, {}, false, settings};
   motion.planned = motion.wish;
   motion.asked = motion.wish;
   motion.plan.state = PlanState::Idle;
   motion.cellTime = kLeastCellTime;
+  motion.calm = exact::kInfinity;
 }
 
 bool extend(Motion &motion, const Strip &strip) noexcept {

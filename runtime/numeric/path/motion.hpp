@@ -26,6 +26,7 @@ struct MotionSettings {
   double jerk;  ///< For LawKind::Jerk, > 0. [u/s^3]
   double share; ///< For the others: of the path's accelerations; less than 1 for a law that exceeds
                 ///< them.
+  bool lean;    ///< Plans are to cost little, and may be a little slower for that.
 };
 
 /// The planned motion: pieces one after the other, a ring.
@@ -49,8 +50,7 @@ enum PieceMark : uint8_t {
 struct Wish {
   double override;         ///< Factor of feeds, > 0.
   double limit;            ///< It goes no further than this way; kInfinity: as far as it can. [u]
-  double deceleration;     ///< See PlanTask. [u/s^2]
-  double jerk;             ///< See PlanTask::brakeJerk. [u/s^3]
+  Braking braking;         ///< To stop: see PlanTask.
   bool stop;               ///< It comes to rest as soon as it can, and stays there.
   MotionSettings settings; ///< Others wait until the motion does not accelerate or brake.
 };
@@ -79,6 +79,8 @@ struct Motion {
                          ///< than plans need. It may be changed at any time. [s]
   int64_t cycles;        ///< How many there were.
   double tail;           ///< In which its last run only brakes. [s]
+  double calm;           ///< Since its last place from where plans succeed best: before it has to
+                         ///< give way to what is ahead; kInfinity: there is none. [s]
   double lead;           ///< How far ahead the session plans. [s]
   double urgentLead;     ///< The least one of the next session for another wish. [s]
   double passed;         ///< Session: time of the pieces that have been looked at. [s]

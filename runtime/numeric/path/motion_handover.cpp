@@ -66,6 +66,7 @@ void handOver(const Motion &motion, int64_t fromStrip, int64_t fromPiece,
   copyPieces(motion.law, fromPiece, path.law);
   path.planned = motion.planned;
   path.tail = motion.tail;
+  path.calm = motion.calm;
   path.cellTime = motion.cellTime;
   path.promise = motion.promise;
   path.cells = motion.cells;
@@ -78,6 +79,7 @@ void takeOver(Motion &motion, const PlannedPath &path, int64_t fromStrip,
   copyPieces(path.law, fromPiece, motion.law);
   motion.planned = path.planned;
   motion.tail = path.tail;
+  motion.calm = path.calm;
   motion.cellTime = path.cellTime;
   motion.cells = path.cells;
   motion.stopsLate = path.stopsLate;

@@ -21,6 +21,7 @@ struct PlannedPath {
   Law law;
   Wish planned;    ///< See Motion, as all of these.
   double tail;     ///< [s]
+  double calm;     ///< [s]
   double cellTime; ///< [s]
   double promise;  ///< [s]
   int32_t cells;

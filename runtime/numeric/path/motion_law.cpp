@@ -6,6 +6,17 @@ namespace {
 
 constexpr int32_t kReservedPieces = 4; ///< Of the ring: what one step writes at most.
 
+bool differs(const Braking &a, const Braking &b) noexcept {
+  return a.deceleration != b.deceleration || a.jerk != b.jerk ||
+         a.accelerationPart != b.accelerationPart || a.jerkPart != b.jerkPart;
+}
+
+/// Whether a plan that begins with a piece has room: the motion does not brake, nor does its
+/// acceleration fall, so that it has not yet begun to heed what comes next.
+bool isCalm(const TimePiece &piece) noexcept {
+  return piece.law == PieceLaw::LinearInWay && piece.acceleration >= 0.0 && piece.gradient >= 0.0;
+}
+
 void push(Motion &motion, const TimePiece &piece) noexcept {
   Law &law = motion.law;
   const bool empty = law.first == law.next;
@@ -22,6 +33,7 @@ void push(Motion &motion, const TimePiece &piece) noexcept {
   const bool brakes = piece.acceleration < 0.0 || piece.law == PieceLaw::ToRest ||
                       (piece.law == PieceLaw::ConstantJerk && piece.gradient < 0.0);
   motion.tail = brakes ? motion.tail + piece.duration : 0.0;
+  motion.calm = isCalm(piece) ? piece.duration : motion.calm + piece.duration;
 }
 
 /// Writes what has been put off.
@@ -78,8 +90,13 @@ void pushStrip(Motion &motion, int64_t strip) noexcept {
 
 } // namespace
 
+bool differs(const Wish &a, const Wish &b) noexcept {
+  return a.override != b.override || a.limit != b.limit || differs(a.braking, b.braking) ||
+         a.stop != b.stop;
+}
+
 bool differs(const MotionSettings &a, const MotionSettings &b) noexcept {
-  return a.kind != b.kind || a.jerk != b.jerk || a.share != b.share;
+  return a.kind != b.kind || a.jerk != b.jerk || a.share != b.share || a.lean != b.lean;
 }
 
 void goAsAsked(Motion &motion) noexcept {
@@ -145,6 +162,7 @@ void cutLaw(Motion &motion) noexcept {
   motion.stopFactor = 0.0;
   motion.refused = false;
   motion.tail = 0.0;
+  motion.calm = exact::kInfinity;
   motion.ramp.length = 0.0;
   if (motion.asked.stop && !motion.askedLate)
     motion.promise = 0.0;

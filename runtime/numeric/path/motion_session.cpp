@@ -9,7 +9,8 @@ namespace {
 using exact::larger;
 using exact::smaller;
 
-constexpr int32_t kStepsPerCell = 24;    ///< Of a plan, or a few more.
+constexpr int32_t kStepsPerCell = 24; ///< Of a plan, or a few more.
+constexpr int32_t kLeanStepsPerCell = 20;
 constexpr int32_t kTrapezoidSteps = 128; ///< Of a plan without cells, about.
 constexpr int32_t kFirstCells = 96;      ///< Of the first plan after rest: it is to begin soon.
 constexpr int32_t kCellsToStop = 75;     ///< Of a plan that only stops, about.
@@ -21,11 +22,6 @@ constexpr int32_t kMostTries = 24;       ///< To find a place to stop at.
 constexpr double kStopFactor = 1.04;
 constexpr double kStopCells = 1.6; ///< A plan to stop has larger cells, to be there soon.
 constexpr int32_t kPause = 8;      ///< Calls after a plan that came to nothing.
-
-bool differs(const Wish &a, const Wish &b) noexcept {
-  return a.override != b.override || a.limit != b.limit || a.deceleration != b.deceleration ||
-         a.jerk != b.jerk || a.stop != b.stop;
-}
 
 /// Whether the law changes ahead to other settings.
 bool isChangeAhead(const Motion &motion) noexcept { return motion.law.first < motion.changed; }
@@ -78,7 +74,7 @@ double jerkAt(const Motion &motion, const WayState &state) noexcept {
       smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
   const double most = smaller(acceleration / kLeastRise, velocity / (kLeastRise * kLeastRise));
-  const double allowed = larger(most, jerkIn(strip, exact::kInfinity, motion.asked.jerk));
+  const double allowed = larger(most, jerkIn(strip, exact::kInfinity, motion.asked.braking));
   const double enough = strip.jerk > 0.0F ? kMore * allowed : most;
   return smaller(motion.asked.settings.jerk, larger(enough, leastJerk(state, velocity)));
 }
@@ -87,6 +83,7 @@ double jerkAt(const Motion &motion, const WayState &state) noexcept {
 /// from `present`, when the feed becomes less than that. [u/s] in
 double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   constexpr double kPart = 1.0 / 60.0;
+  constexpr double kLeanPart = 1.0 / 26.0;
   if (!hasJerk(motion))
     return kLeastCellTime;
   const Strip &strip = stripAtWay(motion, way);
@@ -94,7 +91,8 @@ double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   const double deceleration =
       smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double jerk = jerkIn(strip, motion.asked.settings.jerk);
-  const double time = kPart * rampTime(velocity, deceleration, jerk);
+  const double part = motion.asked.settings.lean ? kLeanPart : kPart;
+  const double time = part * rampTime(velocity, deceleration, jerk);
   return smaller(larger(time, kLeastCellTime), kMostCellTime);
 }
 
@@ -119,11 +117,11 @@ void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   task.share = motion.asked.settings.share;
   task.override = motion.asked.override;
   task.before = motion.planned.override;
-  task.deceleration = motion.asked.deceleration;
-  task.brakeJerk = motion.asked.jerk;
+  task.braking = motion.asked.braking;
   task.cells = motion.cells;
   task.hurry = hurry;
   task.limit = motion.asked.limit;
+  task.lean = motion.asked.settings.lean;
   task.rampPart = motion.asked.stop ? stopRampPart(motion) : kRampPart;
   task.end = exact::kInfinity;
   if (motion.asked.limit < endOf(motion.course))
@@ -184,13 +182,24 @@ bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
   const double left = timeLeft(motion);
   const double free = left - motion.tail;
   const auto leadFor = [&motion, budget](int32_t cells) {
-    const int32_t steps = hasJerk(motion) ? kStepsPerCell * cells : kTrapezoidSteps;
+    const int32_t perCell = motion.asked.settings.lean ? kLeanStepsPerCell : kStepsPerCell;
+    const int32_t steps = hasJerk(motion) ? perCell * cells : kTrapezoidSteps;
     return 1.1 * planningTime(motion, steps, budget);
   };
   int32_t cells = motion.cells < kCells / 2 ? 2 * motion.cells : kCells;
   cells = cellsFor(motion, cells);
-  if (free > leadFor(cells) + motion.keep + 0.3 * motion.tail)
+  const double calm = left - motion.calm;
+  const bool isCalm = motion.asked.settings.lean && calm > leadFor(kLeastCells) + motion.keep;
+  if (isCalm ? calm > leadFor(cells) + motion.keep + 2.0 * motion.cycle
+             : free > leadFor(cells) + motion.keep + 0.3 * motion.tail)
     return false;
+  if (isCalm) { // as late as can be, with as much of the path as is known then
+    while (cells > kLeastCells && leadFor(cells) + motion.keep > calm)
+      cells -= kLeastCells / 4;
+    motion.cells = cells;
+    motion.lead = larger(calm, motion.promise);
+    return true;
+  }
   while (cells > kLeastCells && leadFor(cells) > 0.9 * free)
     cells -= kLeastCells / 4;
   motion.cells = cells;
@@ -268,12 +277,12 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
 /// In what length the motion could stop on a straight line. [u]
 double stoppingLength(const Motion &motion, const WayState &state, const Strip &strip) noexcept {
   const double deceleration =
-      smaller(motion.asked.settings.share * larger(strip.deceleration, motion.asked.deceleration),
+      smaller(motion.asked.settings.share * decelerationIn(strip, motion.asked.braking),
               larger(1.0 - strip.across * state.velocity * state.velocity, 0.05) / strip.along);
   const double v = state.velocity;
   if (!hasJerk(motion))
     return 0.5 * v * v / deceleration;
-  const double jerk = jerkIn(strip, motion.asked.settings.jerk, motion.asked.jerk);
+  const double jerk = jerkIn(strip, motion.asked.settings.jerk, motion.asked.braking);
   const double a = larger(state.acceleration, 0.0);
   const double peak = v + 0.5 * a * a / jerk;
   const double time = rampTime(peak, deceleration, jerk);

@@ -43,6 +43,8 @@ inline double timeInPiece(const Motion &motion) noexcept {
   return motion.since + motion.cycle * static_cast<double>(motion.cycles);
 }
 
+/// But for the settings.
+bool differs(const Wish &a, const Wish &b) noexcept;
 bool differs(const MotionSettings &a, const MotionSettings &b) noexcept;
 
 /// The law goes as asked from its next piece on.

@@ -19,11 +19,19 @@ constexpr Pass kPasses[] = {
 };
 // clang-format on
 constexpr uint8_t kPassCount = sizeof kPasses / sizeof kPasses[0];
-constexpr uint8_t kCellPass = 4;   ///< addCell, which may find that there are too few.
-constexpr int kMostCuts = 12;      ///< Of the run, if so.
-constexpr int kCoarserRuns = 8;    ///< So often the same run may be tried with coarser cells.
-constexpr double kFirstCut = 0.75; ///< See Plan::cut.
-constexpr double kHardCut = 0.5;   ///< The same, when coarser cells have not been enough.
+constexpr uint8_t kCellPass = 4;    ///< addCell, which may find that there are too few.
+constexpr uint8_t kThirdRound = 20; ///< Of pass 4, which lean plans do without.
+constexpr int kMostCuts = 12;       ///< Of the run, if so.
+constexpr int kCoarserRuns = 8;     ///< So often the same run may be tried with coarser cells.
+constexpr double kFirstCut = 0.75;  ///< See Plan::cut.
+constexpr double kHardCut = 0.5;    ///< The same, when coarser cells have not been enough.
+
+/// The first Plan::cut. A lean plan has few cells, of which those at its ends are finer.
+double firstCut(const PlanTask &task) noexcept {
+  constexpr double kLeanCut = 0.78;
+  constexpr double kFineCells = 14.0;
+  return task.lean ? kLeanCut * exact::larger(1.0 - kFineCells / task.cells, 0.5) : kFirstCut;
+}
 
 void beginPasses(Plan &plan, const Course &course, double cut) noexcept {
   plan.cut = cut;
@@ -48,7 +56,7 @@ void beginWithoutRamp(Plan &plan, const Course &course) noexcept {
   plan.rampRefused = true;
   plan.cuts = 0;
   plan.state = PlanState::Working;
-  beginPasses(plan, course, kFirstCut);
+  beginPasses(plan, course, firstCut(plan.task));
 }
 
 /// The next Plan::cut after a run that was too long. At last less of the path than the run had,
@@ -81,7 +89,7 @@ void begin(Plan &plan, const Course &course, const PlanTask &task) noexcept {
   plan.rampRefused = false;
   plan.state = course.first < course.next && task.way < endOf(course) ? PlanState::Working
                                                                       : PlanState::Failed;
-  beginPasses(plan, course, kFirstCut);
+  beginPasses(plan, course, firstCut(plan.task));
   if (plan.state == PlanState::Working && planAlone(plan, course))
     plan.state = PlanState::Done;
 }
@@ -97,6 +105,8 @@ int32_t work(Plan &plan, const Course &course, int32_t budget) noexcept {
     }
     plan.index = 0;
     ++plan.phase;
+    if (plan.phase == kThirdRound && plan.task.lean)
+      plan.phase += 2;
     if (plan.phase == kPassCount || plan.isAlone ||
         (plan.phase == kCellPass && plan.task.jerk == exact::kInfinity))
       plan.state = PlanState::Done;

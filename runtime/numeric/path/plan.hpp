@@ -12,7 +12,8 @@
 //  3. where the acceleration would jump up: a curve with the greatest jerk, from the lowest places
 //  on;
 //  4. where it would jump down: the greatest function below whose slope falls slowly enough, which
-//     is a convex hull after a transformation.
+//     is a convex hull after a transformation. That is done several times, since what the jerk
+//     allows depends on the velocities. Lean plans do it once less, from better velocities.
 // Free of the C++ standard library: linked into every application.
 #ifndef STRIDE_RUNTIME_NUMERIC_PATH_PLAN_HPP
 #define STRIDE_RUNTIME_NUMERIC_PATH_PLAN_HPP
@@ -36,14 +37,13 @@ struct PlanTask {
   double override;     ///< Factor of feeds.
   double before;       ///< That of the law it takes over from, which may begin above `override`.
   double hurry;        ///< How long the motion would stand still for a plan with many cells. [s]
-  double deceleration; ///< With which it may brake at least, whatever strips say; 0: as they say.
-                       ///< [u/s^2]
-  double brakeJerk;    ///< Likewise the jerk, as far as strips have it to spare. [u/s^3]
+  Braking braking;     ///< To stop: besides what strips say.
   double limit;        ///< It goes no further than this way, also to stop; kInfinity: none. [u]
   double rampPart;     ///< Which part of the axes' acceleration curves must leave for a ramp in
                        ///< closed form; 1: no ramp; less, and a stop is nothing but a ramp.
   int32_t cells;       ///< How many may be used, up to kCells.
   bool whole;          ///< The run must reach `end`, however many cells that takes.
+  bool lean;           ///< See MotionSettings.
 };
 
 /// A part of the run. What belongs to a knot is that of the one at the cell's end.

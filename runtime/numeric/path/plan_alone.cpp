@@ -78,8 +78,8 @@ bool planAlone(Plan &plan, const Course &course) noexcept {
   const double allowed = 1.0 / strip.along;
   const Limits limits{exact::sqrt(squareIn(strip, task.override)),
                       smaller(strip.acceleration, allowed),
-                      smaller(larger(strip.deceleration, task.deceleration), allowed),
-                      jerkIn(strip, task.jerk, task.brakeJerk)};
+                      smaller(decelerationIn(strip, task.braking), allowed),
+                      jerkIn(strip, task.jerk, task.braking)};
   const double length = strip.end - task.way;
   const double velocity = peakVelocity(length, limits);
   const double steady = length - rampsWay(velocity, limits);

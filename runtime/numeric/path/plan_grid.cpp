@@ -9,10 +9,11 @@ using exact::smaller;
 
 constexpr double kGrowth = 1.3; ///< Of cells, from one to the next.
 constexpr double kCoarse = 3.0; ///< Cells where it only brakes for an open end, as a multiple.
-constexpr double kCoarseGrowth = 1.6; ///< Of these.
-constexpr double kRampPart = 0.06;    ///< See cellLength.
-constexpr double kSteadyPart = 0.3;   ///< See cellLength.
-constexpr int kStripsLookedAt = 16;   ///< For the length of a rest cell.
+constexpr double kCoarseGrowth = 1.6;  ///< Of these.
+constexpr double kRampPart = 0.06;     ///< See cellLength.
+constexpr double kLeanRampPart = 0.08; ///< Likewise.
+constexpr double kSteadyPart = 0.3;    ///< See cellLength.
+constexpr int kStripsLookedAt = 16;    ///< For the length of a rest cell.
 /// A rest cell is at most this part of the run. Constant jerk out of rest is right for 1/12 of a
 /// short one.
 constexpr double kRestPart = 1.0 / 13.0;
@@ -37,7 +38,7 @@ double besideRest(double jerk, double square, double velocity, double x) noexcep
 /// b as the first idea has it, with regard to rest at the ends. [u^2/s^2]
 double expected(const Plan &plan, const Course &course, const Idea &idea, double way) noexcept {
   const auto jerkOf = [&plan, &course](int64_t strip) {
-    return jerkIn(stripAt(course, strip), plan.task.jerk, plan.task.brakeJerk);
+    return jerkIn(stripAt(course, strip), plan.task.jerk, plan.task.braking);
   };
   const double velocity = exact::sqrt(idea.square);
   const double square = besideRest(jerkOf(plan.lastStrip), idea.square, velocity, plan.end - way);
@@ -61,6 +62,9 @@ double cellLength(const Plan &plan, double velocity, double needed, double part)
   return plan.coarse ? kCoarse * length : length;
 }
 
+/// See cellLength.
+double rampPartOf(const Plan &plan) noexcept { return plan.task.lean ? kLeanRampPart : kRampPart; }
+
 double growthOf(const Plan &plan) noexcept { return plan.coarse ? kCoarseGrowth : kGrowth; }
 
 /// Whether the run only brakes from the present knot on, for its end where no more of the path is
@@ -79,7 +83,8 @@ bool isHurried(const Plan &plan) noexcept {
 /// The same for one beside a cell of `rest` next to rest. [u]
 double lengthBesideRest(const Plan &plan, double jerk, double rest) noexcept {
   const double velocity = exact::sqrt(squareFromRest(jerk, rest));
-  return cellLength(plan, velocity, timeFromRest(velocity, exact::kInfinity, jerk), kRampPart);
+  return cellLength(plan, velocity, timeFromRest(velocity, exact::kInfinity, jerk),
+                    rampPartOf(plan));
 }
 
 /// The length of a strip's part that belongs to the run. [u]
@@ -120,7 +125,7 @@ double restCell(const Plan &plan, const Course &course, bool atEnd) noexcept {
       square = smaller(square, squareIn(strip, plan.task.override));
       acceleration = smaller(acceleration, atEnd ? usableDeceleration(plan, strip)
                                                  : usableAcceleration(plan, strip));
-      jerk = jerkIn(strip, jerk, plan.task.brakeJerk);
+      jerk = jerkIn(strip, jerk, plan.task.braking);
       length = smaller(length, restWithin(jerk, square, acceleration));
     }
     covered += lengthInRun(plan, course, number);
@@ -156,10 +161,9 @@ void takeLimits(Plan &plan, const Course &course, Cell &cell, double from) noexc
     cell.ceiling = smaller(cell.ceiling, squareIn(strip, plan.task.override));
     cell.along = larger(cell.along, strip.along);
     cell.across = larger(cell.across, strip.across);
-    cell.jerk = jerkIn(strip, cell.jerk, plan.task.brakeJerk);
+    cell.jerk = jerkIn(strip, cell.jerk, plan.task.braking);
     cell.acceleration = smaller(cell.acceleration, strip.acceleration);
-    cell.deceleration =
-        smaller(cell.deceleration, larger(strip.deceleration, plan.task.deceleration));
+    cell.deceleration = smaller(cell.deceleration, decelerationIn(strip, plan.task.braking));
     cell.curve = smaller(cell.curve, squareIn(strip, quickest(plan)));
     if (strip.end <= cell.end && strip.end < plan.end)
       lowerAtEnd(plan, cell, strip);
@@ -184,10 +188,10 @@ void putFirstCell(Plan &plan, const Course &course) noexcept {
   plan.coarse = !plan.stops || isHurried(plan);
   plan.endRest = restCell(plan, course, true);
   plan.endStep = lengthBesideRest(
-      plan, jerkIn(stripAt(course, plan.lastStrip), plan.task.jerk, plan.task.brakeJerk),
+      plan, jerkIn(stripAt(course, plan.lastStrip), plan.task.jerk, plan.task.braking),
       plan.endRest);
   plan.coarse = isHurried(plan);
-  const double jerk = jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk, plan.task.brakeJerk);
+  const double jerk = jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk, plan.task.braking);
   if (startsAtRest(plan)) {
     const double length = restCell(plan, course, false);
     putCell(plan, course, plan.task.way + length, plan.task.way + 0.25 * length);
@@ -197,7 +201,7 @@ void putFirstCell(Plan &plan, const Course &course) noexcept {
   const double room = plan.end - plan.endRest - plan.knot;
   const double needed = timeFromRest(plan.task.velocity, exact::kInfinity, jerk);
   const double length =
-      smaller(0.5 * cellLength(plan, plan.task.velocity, needed, kRampPart), 0.25 * room);
+      smaller(0.5 * cellLength(plan, plan.task.velocity, needed, rampPartOf(plan)), 0.25 * room);
   putCell(plan, course, plan.task.way + length, plan.task.way + 0.5 * length);
 }
 
@@ -216,7 +220,7 @@ double steadyWay(const Plan &plan, const Course &course) noexcept {
 /// further it is to where it changes. [u]
 double steadyLength(const Plan &plan, const Course &course, double velocity,
                     double needed) noexcept {
-  const double atRamp = cellLength(plan, velocity, needed, kRampPart);
+  const double atRamp = cellLength(plan, velocity, needed, rampPartOf(plan));
   const double growth = growthOf(plan);
   const double growing = (atRamp + (growth - 1.0) * steadyWay(plan, course)) / growth;
   return larger(cellLength(plan, velocity, needed, kSteadyPart), growing);
@@ -229,7 +233,7 @@ double nextLength(const Plan &plan, const Course &course, const Idea &idea, doub
   const double needed =
       timeFromRest(velocity, 2.0 * smaller(idea.acceleration, idea.deceleration), idea.jerk);
   const double wish = square >= idea.most ? steadyLength(plan, course, velocity, needed)
-                                          : cellLength(plan, velocity, needed, kRampPart);
+                                          : cellLength(plan, velocity, needed, rampPartOf(plan));
   const double growth = growthOf(plan);
   double length = smaller(larger(wish, 0.1 * plan.step), growth * plan.step);
   length = smaller(length, (plan.endStep + (growth - 1.0) * left) / growth);

@@ -178,6 +178,15 @@ void riseOverSpan(Plan &plan) noexcept {
   plan.curveSlope += plan.cell[plan.index].change;
 }
 
+/// Whether this round of pass 4 is the last one.
+bool isLastRound(const Plan &plan) noexcept { return plan.round == (plan.task.lean ? 1 : 2); }
+
+/// Lowers a cell to the hull. The next round takes from it how far slopes can fall: of a hull
+/// that is too low, since its own velocities were too high, that would be too far.
+void lower(const Plan &plan, Cell &cell, double square) noexcept {
+  cell.square = plan.task.lean && !isLastRound(plan) ? 0.5 * (cell.square + square) : square;
+}
+
 // ---- the check
 
 void note(Plan &plan, double part) noexcept {
@@ -206,8 +215,7 @@ void checkStart(Plan &plan, const Course &course) noexcept {
   const Strip &strip = stripAt(course, plan.firstStrip);
   const Cell &cell = plan.cell[0];
   const double a = plan.task.acceleration;
-  const double own =
-      a > 0.0 ? strip.acceleration : larger(strip.deceleration, plan.task.deceleration);
+  const double own = a > 0.0 ? strip.acceleration : decelerationIn(strip, plan.task.braking);
   if (!startsAtRest(plan) && exact::fabs(a) <= own * kRounding)
     note(plan, a > 0.0 ? a / cell.acceleration : -a / cell.deceleration);
 }
@@ -279,8 +287,9 @@ bool stackHull(Plan &plan, const Course & /*course*/) noexcept {
     return false;
   // The first slope must not fall further than the first cell can follow.
   const double least = 2.0 * plan.task.acceleration;
-  if (!startsAtRest(plan) && slopeOfLine(plan, plan.stack[0], plan.stack[1]) <
-                                 least - 1e-9 * exact::fabs(plan.cell[0].change)) {
+  if ((isLastRound(plan) || !plan.task.lean) && !startsAtRest(plan) &&
+      slopeOfLine(plan, plan.stack[0], plan.stack[1]) <
+          least - 1e-9 * exact::fabs(plan.cell[0].change)) {
     plan.state = PlanState::Failed;
     return true;
   }
@@ -306,10 +315,10 @@ bool lowerToHull(Plan &plan, const Course & /*course*/) noexcept {
   }
   if (plan.index < to) { // once more, with the line
     const double line = a.bound + plan.otherSlope * (cell.middle - a.middle);
-    cell.square = smaller(cell.bound, line - plan.height);
+    lower(plan, cell, smaller(cell.bound, line - plan.height));
     return false;
   }
-  cell.square = cell.bound;
+  lower(plan, cell, cell.bound);
   ++plan.valley;
   plan.heading = 1;
   beginEdge(plan);

@@ -29,7 +29,14 @@ double peakWayOf(const Plan &plan) noexcept {
 
 /// The greatest deceleration that a strip allows, without regard to the axes. [u/s^2]
 double mostIn(const Plan &plan, const Strip &strip) noexcept {
-  return larger(strip.deceleration, plan.task.deceleration);
+  return decelerationIn(strip, plan.task.braking);
+}
+
+/// What a bend leaves of the part of the axes' acceleration that a stop may take: half of it at
+/// least, since it must stop, too, where the bend itself takes more.
+double partLeft(const Plan &plan, double bend) noexcept {
+  const double part = plan.task.braking.accelerationPart;
+  return part > 0.0 && part < 1.0 ? larger(part - bend, 0.5 * part) : 1.0;
 }
 
 /// Up to where the ramp may go. [u]
@@ -130,7 +137,11 @@ bool allowsRamp(const Plan &plan, const Course &course) noexcept {
   const double square = velocity * velocity;
   const double most =
       smaller(squareIn(strip, override), squareAtEnd(stripAt(course, plan.strip - 1), override));
-  return square <= most * kAlmost && plan.rampPeak <= mostIn(plan, strip) * kAlmost &&
+  // A part of what the axes allow is for what is still to come.
+  const double first =
+      smaller(-plan.from.acceleration, larger(strip.deceleration, plan.task.braking.deceleration));
+  return square <= most * kAlmost &&
+         plan.rampPeak <= larger(mostIn(plan, strip), first) * kAlmost &&
          plan.rampPeak * strip.along + square * strip.across <= kAlmost;
 }
 
@@ -152,7 +163,7 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
     plan.rampSquare = task.whole ? 0.0 : exact::kInfinity;
     plan.rampMost = exact::kInfinity;
   }
-  const double jerk = jerkIn(strip, plan.rampJerk, task.brakeJerk);
+  const double jerk = jerkIn(strip, plan.rampJerk, task.braking);
   // An acceleration that falls more slowly leads higher than the strips before allow.
   if (plan.strip > plan.firstStrip && jerk < plan.rampJerk && plan.from.acceleration > 0.0)
     return dropRamp(plan);
@@ -170,7 +181,8 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
   const double left = 1.0 - strip.across * here * here;
   if (!(left > task.rampPart))
     return dropRamp(plan);
-  plan.rampMost = smaller(plan.rampMost, smaller(mostIn(plan, strip), left / strip.along));
+  const double usable = smaller(left, partLeft(plan, 1.0 - left));
+  plan.rampMost = smaller(plan.rampMost, smaller(mostIn(plan, strip), usable / strip.along));
   writeRamp(plan);
   if (!task.whole && !(plan.rampVelocity > 0.0))
     return dropRamp(plan);

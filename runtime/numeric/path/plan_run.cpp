@@ -38,7 +38,7 @@ double usableOf(const Plan &plan, double limit, double allowed) noexcept {
 }
 
 double brakingOf(const Plan &plan, const Strip &strip) noexcept {
-  return larger(strip.deceleration, plan.task.deceleration);
+  return decelerationIn(strip, plan.task.braking);
 }
 
 /// The part of a strip that belongs to the run.
@@ -137,7 +137,7 @@ double leastEnd(const Plan &plan, const Course &course) noexcept {
   const double deceleration = usableDeceleration(plan, stripAt(course, plan.firstStrip)) / kShare;
   const double time =
       velocity / deceleration +
-      deceleration / jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk, plan.task.brakeJerk);
+      deceleration / jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk, plan.task.braking);
   return plan.task.way + kMargin * 0.5 * velocity * time;
 }
 
@@ -177,7 +177,7 @@ Idea ideaAt(const Plan &plan, const Course &course, int64_t number, double way) 
   const double backwards = reach + 2.0 * part.deceleration * (part.end - way);
   const double square = smaller(squareAfter(part, way - part.begin), backwards);
   return {square, part.most, part.acceleration, part.deceleration,
-          jerkIn(stripAt(course, number), plan.task.jerk, plan.task.brakeJerk)};
+          jerkIn(stripAt(course, number), plan.task.jerk, plan.task.braking)};
 }
 
 double reachAtBorder(const Plan &plan, int64_t strip) noexcept { return reachAt(plan, strip); }

@@ -139,7 +139,7 @@ template <class Kind> Calls drive(size_t cycles) {
   Kind path;
   Calls calls;
   const auto motion = std::make_unique<Motion>();
-  reset(*motion, {LawKind::Jerk, kJerk, 1});
+  reset(*motion, {LawKind::Jerk, kJerk, 1, false});
   Strip strip = path.next();
   double way = 0;
   for (size_t i = 0; i < cycles; ++i) {

@@ -47,7 +47,7 @@ void drive(const std::vector<path::Strip> &strips, double jerk, int32_t budget, 
   constexpr double kCycle = 0.001;
   constexpr int kPatience = 5000; // cycles at rest
   const auto motion = std::make_unique<path::Motion>();
-  path::reset(*motion, {path::LawKind::Jerk, jerk, 1});
+  path::reset(*motion, {path::LawKind::Jerk, jerk, 1, false});
   std::vector<Sample> samples;
   size_t known = 0;
   size_t at = 0;

@@ -32,7 +32,7 @@ now(SystemTime := t);
 IF cycle MOD {EVERY} = 0 AND i < {COUNT} THEN
   exact(SystemTime := u, TimeDate := d);
   ms[i] := SysTimeGetMs();
-  us[i] := SysTimeGetUs();
+  SysTimeGetUs(us[i]);
   low[i] := SHL(DWORD_TO_ULINT(t.ulHigh), 32) + DWORD_TO_ULINT(t.ulLow);
   both[i] := SHL(DWORD_TO_ULINT(d.dwHighMsec), 32) + DWORD_TO_ULINT(d.dwLowMSecs);
   IF u.ulLow <> t.ulLow OR u.ulHigh <> t.ulHigh THEN

@@ -102,6 +102,20 @@ TEST_F(EncoderOf, WhereItWrapsMustBeKnown) {
   EXPECT_TRUE(works());
 }
 
+TEST_F(EncoderOf, ItsMappingMayBeFixed) {
+  test::ScriptedNode &node = addNode(0);
+  node.pdosInOperation = {"294#05000000"};
+  for (const auto &[object, value] :
+       {std::pair<uint32_t, uint32_t>{0x1A0100, 1}, {0x1A0101, 0x60040020}}) {
+    node.values[object] = {static_cast<uint8_t>(object == 0x1A0100 ? 1 : 4), value};
+    node.writeAborts[object] = 0x06010002;
+  }
+  startAll();
+  cycles(100);
+  EXPECT_TRUE(works());
+  EXPECT_EQ(driver->encoder(0), 5U);
+}
+
 TEST_F(EncoderOf, ADriveThatHasTwo) {
   encoder->add({"second_of", "x", 0});
   // 6064h and 60E4h:1 fill the first TPDO; the statusword comes by event.

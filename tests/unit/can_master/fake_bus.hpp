@@ -118,8 +118,9 @@ public:
   std::vector<std::string> written;
   std::map<uint32_t, Value>
       values; ///< By index * 256 + subindex; what is not there does not exist.
-  std::map<uint32_t, uint32_t> aborts; ///< The same, with codes; for reads and writes.
-  std::vector<std::string> atSync;     ///< Frames that follow a SYNC in operation.
+  std::map<uint32_t, uint32_t> aborts;      ///< The same, with codes; for reads and writes.
+  std::map<uint32_t, uint32_t> writeAborts; ///< For writes only.
+  std::vector<std::string> atSync;          ///< Frames that follow a SYNC in operation.
   std::vector<std::string> pdosInOperation;
   bool answers = true;
   bool boots = true;         ///< After a reset.
@@ -170,6 +171,8 @@ private:
                     frame.data[3], number & 0xFFU, number >> 8U & 0xFFU, number >> 16U & 0xFFU,
                     number >> 24U);
       say(0x580, text);
+    } else if (const auto refused = writeAborts.find(key); refused != writeAborts.end()) {
+      abort(refused->second);
     } else if (!acceptsWrites && !values.contains(key)) {
       abort(0x06020000);
     } else {

@@ -393,5 +393,71 @@ TEST_F(StartUpOf, AValueThatDoesNotFitTheMeasuredObjectIsRefused) {
   expectFailure("node 5, 16#2031:2: 16#100 does not fit into its 1 bytes");
 }
 
+/// A device whose PDOs are const, and are what is planned.
+class FixedPdos : public StartUpOf {
+protected:
+  static constexpr uint32_t kReadOnly = 0x06010002;
+  void fix(uint32_t object, uint8_t size, uint32_t value) {
+    node.values[object] = {size, value};
+    node.writeAborts[object] = kReadOnly;
+  }
+  FixedPdos() {
+    fix(0x160000, 1, 2);
+    fix(0x160001, 4, 0x60400010);
+    fix(0x160002, 4, 0x607A0020);
+    fix(0x1A0000, 1, 2);
+    fix(0x1A0001, 4, 0x60410010);
+    fix(0x1A0002, 4, 0x60640020);
+  }
+};
+
+TEST_F(FixedPdos, AreTakenAsTheyAre) {
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_THAT(node.written, Contains("1800:1/4=185"));
+  EXPECT_THAT(node.written, ::testing::Not(Contains(HasSubstr("1A00"))));
+  EXPECT_EQ(std::count(sent.begin(), sent.end(), "605#40001A0200000000"), 1);
+}
+
+TEST_F(FixedPdos, WithFixedIdentifiersAndTiming) {
+  fix(0x140001, 4, 0x205);
+  fix(0x140002, 1, 1);
+  fix(0x180001, 4, 0x40000185); // nobody may ask for it
+  fix(0x180002, 1, 1);
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+}
+
+TEST_F(FixedPdos, WithAnotherTimingAreNone) {
+  fix(0x180002, 1, 255);
+  expectFailure("node 5, 16#1800:2 is fixed: it is 16#FF, and would have to be 16#1");
+}
+
+TEST_F(FixedPdos, WithMoreObjectsAreNone) {
+  fix(0x1A0000, 1, 3);
+  expectFailure("node 5, 16#1A00:0 is fixed: it is 16#3, and would have to be 16#2");
+}
+
+TEST_F(FixedPdos, WithOtherObjectsAreNone) {
+  fix(0x1A0002, 4, 0x60630020);
+  expectFailure("node 5, 16#1A00:2 is fixed: it is 16#60630020, and would have to be 16#60640020");
+}
+
+TEST_F(FixedPdos, ThatCannotBeSwitchedOffAreNone) {
+  fix(0x180201, 4, 0x385);
+  expectFailure("node 5, 16#1802:1 is fixed: it is 16#385, and would have to be 16#80000385");
+}
+
+TEST_F(FixedPdos, WhatCannotBeReadEitherIsAFailure) {
+  node.aborts[0x1A0001] = 0x06010001;
+  node.values.erase(0x1A0001);
+  expectFailure("16#1A00:1");
+}
+
+/// Only of PDOs: a parameter that cannot be written is none.
+TEST_F(FixedPdos, OtherObjectsAreNotCompared) {
+  config.parameters = {{{0x2031, 0}, 2, 7}};
+  fix(0x203100, 2, 7);
+  expectFailure("node 5, 16#2031");
+}
+
 } // namespace
 } // namespace stride::can

@@ -55,6 +55,50 @@ TEST(StartUpParameters, AreObjectsAndValues) {
   }
 }
 
+TEST(StartUpParameters, OfMoreThanFourBytes) {
+  struct Row {
+    const char *text;
+    std::vector<uint8_t> bytes;
+  };
+  const std::vector<Row> rows = {
+      {"2031h:3 := LINT#-2", {0xFE, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF}},
+      {"2031h:3 := LINT#-9223372036854775808", {0, 0, 0, 0, 0, 0, 0, 0x80}},
+      {"2031h:3 := lint#16#0102030405060708", {8, 7, 6, 5, 4, 3, 2, 1}},
+      {"2031h:3 := ULINT#18446744073709551615", std::vector<uint8_t>(8, 0xFF)},
+      {"2031h:3 := LWORD#2#101", {5, 0, 0, 0, 0, 0, 0, 0}},
+      {"2031h:3 := LREAL#-1.5", {0, 0, 0, 0, 0, 0, 0xF8, 0xBF}},
+      {"2031h:3 := 'Axis 1'", {'A', 'x', 'i', 's', ' ', '1'}},
+      {"2031h:3 := '#'", {'#'}},
+      {"2031h:3 := 'UINT#5 := 6'", {'U', 'I', 'N', 'T', '#', '5', ' ', ':', '=', ' ', '6'}},
+  };
+  for (const Row &row : rows) {
+    SdoWrite write;
+    std::string error;
+    EXPECT_TRUE(parseStartUp(row.text, write, error)) << row.text << ": " << error;
+    EXPECT_EQ(write.bytes, row.bytes) << row.text;
+    EXPECT_EQ(write.length(), row.bytes.size());
+  }
+  SdoWrite write;
+  std::string error;
+  const std::string text(255, 'x');
+  EXPECT_TRUE(parseStartUp("2031h := '" + text + "'", write, error));
+  EXPECT_EQ(write.bytes.size(), 255U);
+  EXPECT_FALSE(parseStartUp("2031h := '" + text + "y'", write, error));
+  EXPECT_THAT(error, HasSubstr("up to 255"));
+}
+
+TEST(StartUpParameters, LongerOnesAreInDcfAndStamp) {
+  std::vector<SdoWrite> writes(2);
+  std::string error;
+  ASSERT_TRUE(parseStartUp("2031h:3 := LREAL#-1.5", writes[0], error));
+  ASSERT_TRUE(parseStartUp("2032h := UINT#7", writes[1], error));
+  EXPECT_THAT(conciseDcf(writes), ElementsAre(2, 0, 0, 0, 0x31, 0x20, 3, 8, 0, 0, 0, 0, 0, 0, 0, 0,
+                                              0, 0xF8, 0xBF, 0x32, 0x20, 0, 2, 0, 0, 0, 7, 0));
+  const ConfigurationStamp stamp = stampOf(writes);
+  ++writes[0].bytes[0];
+  EXPECT_NE(stampOf(writes), stamp);
+}
+
 TEST(StartUpParameters, ThatCannotBeSayWhy) {
   struct Row {
     const char *text;
@@ -80,7 +124,20 @@ TEST(StartUpParameters, ThatCannotBeSayWhy) {
       {"6098h := INT#35", "has 8 bits"},
       {"2031h := 35", "the type of this object is not known"},
       {"2031h := 16#23", "the type of this object is not known"},
-      {"2031h := LREAL#35", "a value has the type"},
+      {"2031h := STRING#35", "a value has the type"},
+      {"2031h := LREAL#", "this is no LREAL"},
+      {"2031h := LREAL#nan", "this is no LREAL"},
+      {"2031h := LINT#9223372036854775808", "does not fit into 64 bits with a sign"},
+      {"2031h := LINT#-9223372036854775809", "does not fit into 64 bits with a sign"},
+      {"2031h := ULINT#-1", "does not fit into 64 bits without a sign"},
+      {"2031h := ULINT#18446744073709551616", "no whole number"},
+      {"6098h := LINT#35", "has 8 bits"},
+      {"6098h := 'a'", "no whole number"},
+      {"2031h := ''", "one character at least"},
+      {"2031h := 'a", "between quotes"},
+      {"2031h := 'it's'", "without ' and $"},
+      {"2031h := 'a$N'", "without ' and $"},
+      {"2031h := '\xC3\xA4'", "of ASCII"},
       {"2031h := REAL#x", "this is no REAL"},
       {"2031h := REAL#inf", "this is no REAL"},
       {"2031h := UINT#", "no whole number"},
@@ -117,9 +174,12 @@ TEST(OwnPdos, EntriesAreObjectsAndTheirBits) {
       {"2031h", 0, 0, 0, "the length of this object is not known"},
       {"2031h:1", 0, 0, 0, "the length of this object is not known"},
       {"6040h:0:8", 0, 0, 0, "has 16 bits"},
-      {"2031h:1:0", 0, 0, 0, "8, 16, 32 or 64"},
-      {"2031h:1:24", 0, 0, 0, "8, 16, 32 or 64"},
-      {"2031h:1:128", 0, 0, 0, "8, 16, 32 or 64"},
+      {"2031h:1:24", 0x2031, 1, 24},
+      {"2031h:1:56", 0x2031, 1, 56},
+      {"2031h:1:0", 0, 0, 0, "whole bytes, 8 to 64 bits"},
+      {"2031h:1:20", 0, 0, 0, "whole bytes, 8 to 64 bits"},
+      {"2031h:1:72", 0, 0, 0, "whole bytes, 8 to 64 bits"},
+      {"2031h:1:128", 0, 0, 0, "whole bytes, 8 to 64 bits"},
       {"2031h:1:x", 0, 0, 0, "are a number"},
       {"2031h:1:8:8", 0, 0, 0, "too many colons"},
       {"", 0, 0, 0, "an object is written as"},

@@ -74,8 +74,17 @@ TEST_F(LssScene, SelectedByItsIdentity) {
   EXPECT_EQ(wordAt(answer, 1, 4), 0x9234U);
   EXPECT_EQ(ask({0x11, 128}), 0x11U);
   EXPECT_EQ(answer.data[1], 1) << "out of range";
-  EXPECT_EQ(ask({0x13, 0, 2}), 0x13U);
-  EXPECT_EQ(answer.data[1], 1);
+  // Bit rates of the table of the standard.
+  for (const unsigned place : {0U, 4U, 6U, 8U}) {
+    EXPECT_EQ(ask({0x13, 0, place}), 0x13U);
+    EXPECT_EQ(answer.data[1], 0) << place;
+  }
+  for (const unsigned place : {5U, 9U}) {
+    EXPECT_EQ(ask({0x13, 0, place}), 0x13U);
+    EXPECT_EQ(answer.data[1], 1) << place;
+  }
+  EXPECT_EQ(ask({0x13, 1, 2}), 0x13U);
+  EXPECT_EQ(answer.data[1], 1) << "a table of a maker";
   EXPECT_EQ(ask({0x11, 42}), 0x11U);
   EXPECT_EQ(answer.data[1], 0);
   EXPECT_EQ(ask({0x17}), 0x17U);

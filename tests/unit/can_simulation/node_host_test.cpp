@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <deque>
+
 namespace stride::can::simulation {
 namespace {
 
@@ -113,6 +116,68 @@ TEST_F(HostScene, AStepComesToAnEnd) {
     port.coming.push_back(frameOf(0x080));
   host.step(41'000'000);
   EXPECT_GT(port.coming.size(), 1000U);
+}
+
+struct BacklogScene : HostScene {
+  /// Both with a TPDO at each SYNC: 185h and 186h.
+  void operate() {
+    int64_t now = 0;
+    for (; now <= 40'000'000; now += 1'000'000)
+      host.step(now);
+    ASSERT_EQ(drive.write(0x1800, 2, 1), Abort::None);
+    ASSERT_EQ(drive.write(0x1400, 2, 1), Abort::None);
+    ASSERT_EQ(io.write(0x1800, 2, 1), Abort::None);
+    port.coming = {frameOf(0, {1, 0})};
+    host.step(now);
+    ASSERT_EQ(drive.state(), NmtState::Operational);
+    port.coming = {frameOf(0x080)};
+    host.step(now += 1'000'000);
+    port.sent.clear();
+  }
+  [[nodiscard]] int count(uint16_t id) const {
+    return static_cast<int>(std::count_if(port.sent.begin(), port.sent.end(),
+                                          [id](const Frame &frame) { return frame.id == id; }));
+  }
+};
+
+TEST_F(BacklogScene, OfSyncsThatHaveWaitedTheLastOneIsAnswered) {
+  operate();
+  for (const size_t waiting : {1U, 2U, 3U, 6U, 17U, 200U}) {
+    port.coming.assign(waiting, frameOf(0x080));
+    host.step(50'000'000);
+    EXPECT_EQ(count(0x185), 1) << waiting;
+    EXPECT_EQ(count(0x186), 1) << waiting;
+    port.sent.clear();
+  }
+}
+
+/// What has come before an old SYNC counts from the last one on, or has been overwritten.
+TEST_F(BacklogScene, WhatElseHasWaitedIsTaken) {
+  operate();
+  const Frame question = frameOf(0x605, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0});
+  port.coming = {frameOf(0x080),
+                 question,
+                 frameOf(0x205, {0x06, 0}),
+                 frameOf(0x080),
+                 frameOf(0x205, {0x80, 0}),
+                 question};
+  host.step(50'000'000);
+  EXPECT_EQ(count(0x185), 1);
+  EXPECT_EQ(count(0x585), 2) << "each question has its answer";
+  EXPECT_EQ(drive.objects().value(0x6040), 0x06U) << "valid with SYNC; the other one is not yet";
+  port.coming = {frameOf(0x080)};
+  host.step(51'000'000);
+  EXPECT_EQ(drive.objects().value(0x6040), 0x80U);
+}
+
+/// A node whose SYNC has another identifier has a backlog of its own.
+TEST_F(BacklogScene, EachNodeHasItsOwnSync) {
+  operate();
+  ASSERT_EQ(io.write(0x1005, 0, 0x81), Abort::None);
+  port.coming = {frameOf(0x081), frameOf(0x080), frameOf(0x080)};
+  host.step(50'000'000);
+  EXPECT_EQ(count(0x185), 1);
+  EXPECT_EQ(count(0x186), 1);
 }
 
 /// The same drive behind a port of the bus: for the master there is no difference but time.

@@ -3,6 +3,7 @@
 #include "drivers/can/port/port.hpp"
 #include "drivers/can/simulation/canopen_node.hpp"
 #include "drivers/can/simulation/simulated_bus.hpp"
+#include "tests/unit/can_together/together_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,149 @@ TEST_F(Lss, WithoutNodesNobodyAnswers) {
   EXPECT_EQ(master.setNode(5), LssResult::NoAnswer);
   EXPECT_EQ(master.store(), LssResult::NoAnswer);
   EXPECT_EQ(master.node(), std::nullopt);
+}
+
+/// Drives that get their numbers before they start: 1 "set", 2 "store".
+struct LssTogether : ::testing::Test {
+  void add(uint32_t id, double serial, int lss) {
+    bus::SetupParameters &drive = scene.add(id);
+    drive.add({"identity.vendor", "", 0xA0000001});
+    drive.add({"identity.product", "", 7});
+    drive.add({"identity.revision", "", 0});
+    drive.add({"identity.serial", "", serial});
+    if (lss != 0)
+      drive.add({"lss", "", static_cast<double>(lss)});
+  }
+  /// Its supply is switched off and on, and it is started anew.
+  void again(size_t drive, simulation::Station station) {
+    scene.network->bus().setPower(station, false);
+    for (int i = 0; i < 20; ++i)
+      scene.cycle();
+    scene.network->bus().setPower(station, true);
+    scene.driver->reset(drive);
+    scene.started[drive] = false;
+    scene.commands[drive] = {};
+  }
+  /// The devices have been on for a while when the master begins.
+  void boot() {
+    for (int i = 0; i < 40; ++i)
+      scene.network->beginCycle();
+  }
+  /// A device that has that number from the beginning.
+  void store(size_t drive, uint8_t id) {
+    CanopenNode &node = scene.network->drive(drive);
+    for (const uint32_t request : {0x0104U, 0x0011U + (uint32_t{id} << 8U), 0x0017U, 0x0004U}) {
+      Frame frame;
+      frame.id = LssMaster::kRequestId;
+      frame.length = 8;
+      frame.data = {static_cast<uint8_t>(request), static_cast<uint8_t>(request >> 8U)};
+      node.receive(frame, 0);
+    }
+    ASSERT_EQ(node.id(), id);
+  }
+  Together scene;
+};
+
+TEST_F(LssTogether, DrivesWithoutNumbersGetThemAndMove) {
+  add(4, 1001, 1);
+  add(5, 0xFFFFFFFF, 0);
+  add(6, 1000, 2);
+  scene.make();
+  EXPECT_EQ(scene.network->drive(0).id(), simulation::kUnconfigured);
+  EXPECT_EQ(scene.network->drive(2).id(), simulation::kUnconfigured);
+  scene.run();
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(scene.network->drive(i).id(), 4 + i);
+  const int32_t before = scene.network->drive(2).position();
+  for (int i = 0; i < 50; ++i)
+    scene.cycle([&] { scene.commands[2].position += 10; });
+  for (int i = 0; i < 5; ++i)
+    scene.cycle();
+  EXPECT_EQ(scene.network->drive(2).position(), before + 500);
+  EXPECT_EQ(scene.network->drive(0).objects().value(0x1200, 1), 0x604U);
+}
+
+TEST_F(LssTogether, WhatIsStoredIsKeptAndWhatIsSetIsSetAgain) {
+  add(4, 1001, 1);
+  add(6, 1000, 2);
+  scene.make();
+  scene.run();
+  const auto station = [](size_t drive) { return static_cast<simulation::Station>(1 + drive); };
+  again(0, station(0));
+  EXPECT_EQ(scene.network->drive(0).id(), simulation::kUnconfigured);
+  again(1, station(1));
+  EXPECT_EQ(scene.network->drive(1).id(), 6);
+  scene.run();
+  EXPECT_EQ(scene.network->drive(0).id(), 4);
+  EXPECT_EQ(scene.network->drive(1).id(), 6);
+}
+
+/// Factory-new, all are node 1: each one that gets its number is reset together with those that
+/// are still to get theirs.
+TEST_F(LssTogether, DevicesThatHaveOneNumber) {
+  add(1, 1001, 1);
+  add(2, 1002, 2);
+  add(3, 1003, 1);
+  scene.make();
+  for (size_t i = 0; i < 3; ++i)
+    store(i, 1);
+  boot();
+  scene.run();
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(scene.network->drive(i).id(), 1 + i);
+}
+
+/// The same, but the first one has its number by a switch, and is not looked for.
+TEST_F(LssTogether, ADeviceWithTheNumberOfOneWithoutLss) {
+  add(1, 1001, 0);
+  add(2, 1002, 1);
+  add(3, 1003, 2);
+  scene.make();
+  for (size_t i = 1; i < 3; ++i)
+    store(i, 1);
+  boot();
+  scene.run();
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(scene.network->drive(i).id(), 1 + i);
+}
+
+TEST_F(LssTogether, DevicesSwapTheirNumbers) {
+  add(5, 1005, 1);
+  add(8, 1008, 2);
+  scene.make();
+  store(0, 8);
+  store(1, 5);
+  boot();
+  scene.run();
+  EXPECT_EQ(scene.network->drive(0).id(), 5);
+  EXPECT_EQ(scene.network->drive(1).id(), 8);
+}
+
+TEST_F(LssTogether, ANumberThatIsSetOutlivesTheResetOfTheNode) {
+  add(5, 1005, 1);
+  scene.setup.drives[0].parameters.add({"reset", "", double{kResetNode}});
+  scene.make();
+  scene.run();
+  EXPECT_EQ(scene.network->drive(0).id(), 5);
+}
+
+TEST_F(LssTogether, ADeviceThatIsAnotherOneIsNotFound) {
+  add(4, 1001, 1);
+  scene.make();
+  // What the bus has is not what the configuration says.
+  CanopenNode other({.id = simulation::kUnconfigured,
+                     .vendor = 0xA0000001,
+                     .product = 7,
+                     .revision = 0,
+                     .serial = 1002},
+                    {});
+  scene.network->bus().attach(other);
+  scene.network->drive(0).setSilent(true);
+  for (int i = 0; i < 5000 && scene.failed.empty(); ++i)
+    scene.cycle();
+  EXPECT_EQ(scene.failed, "node 4 does not answer: is it on, with this number and bit rate? No "
+                          "node with its identity answers by LSS, either");
+  EXPECT_EQ(other.id(), simulation::kUnconfigured);
 }
 
 } // namespace

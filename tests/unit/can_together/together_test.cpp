@@ -187,5 +187,49 @@ TEST(CanTogetherStart, ManyDrivesStartSideBySide) {
   EXPECT_EQ(scene.driver->master().counters().sendQueueFull, 0U);
 }
 
+/// Longer than an SDO that has its value with it: in segments, and in blocks.
+TEST(CanTogether, LongStartUpValues) {
+  Together scene;
+  const std::string text =
+      "A drive whose name goes over 64 bytes, so that it is written in blocks: 12";
+  scene.add(3).add({"startup",
+                    "2031h:3 := LREAL#-1.5\n2032h := ULINT#16#8877665544332211\n2033h := 'Axis 1'\n"
+                    "2034h:1 := '" +
+                        text + "'\n2035h := UINT#515\n2036h := 'abc'",
+                    0});
+  scene.make();
+  scene.run();
+  simulation::Dictionary &objects = scene.network->drive(0).objects();
+  EXPECT_EQ(objects.value(0x2031, 3), 0xBFF8000000000000U);
+  EXPECT_EQ(objects.value(0x2032), 0x8877665544332211U);
+  const auto textOf = [&objects](uint16_t index, uint8_t sub) {
+    const std::vector<uint8_t> &bytes = objects.at(index, sub).text;
+    return std::string(bytes.begin(), bytes.end());
+  };
+  EXPECT_EQ(textOf(0x2033, 0), "Axis 1");
+  EXPECT_EQ(textOf(0x2034, 1), text);
+  EXPECT_EQ(objects.value(0x2035), 515U);
+  EXPECT_EQ(textOf(0x2036, 0), "abc");
+}
+
+TEST(CanTogether, PdosWithObjectsOfOddLengths) {
+  Together scene;
+  bus::SetupParameters &drive = scene.add(3);
+  drive.add({"rpdo1.map", "6040h\n2030h:5:16\n607Ah", 0});
+  drive.add({"tpdo1.map", "2031h:1:24\n6064h", 0});
+  drive.add({"tpdo2.map", "2032h:0:40\n6041h", 0});
+  drive.add({"tpdo3.map", "2033h:0:56", 0});
+  drive.add({"tpdo4.map", "2034h:0:48\n2035h:0:8", 0});
+  scene.make();
+  scene.run();
+  const int32_t before = scene.network->drive(0).position();
+  for (int i = 0; i < 40; ++i)
+    scene.cycle([&] { scene.commands[0].position += 7; });
+  for (int i = 0; i < 5; ++i)
+    scene.cycle();
+  EXPECT_EQ(scene.network->drive(0).position(), before + 280);
+  EXPECT_EQ(scene.driver->status(0).position, static_cast<uint32_t>(before + 280));
+}
+
 } // namespace
 } // namespace stride::can

@@ -96,24 +96,68 @@ TEST(ExpReader, tasksHaveTheirProgramsAndTimes) {
   EXPECT_EQ(model.tasks[1].origin.line, 7U);
 }
 
-TEST(ExpReader, drawnBodiesDoNotCompileSilently) {
+TEST(ExpReader, drawnBodiesLeaveAMark) {
   const Model model = read("PROGRAM P\nVAR\nEND_VAR\n_LD_BODY\n_NETWORKS : 1\nEND_PROGRAM\n");
   ASSERT_THAT(model.objects, SizeIs(1));
-  EXPECT_THAT(model.objects[0].text,
-              HasSubstr("{error 'body not imported: _LD_BODY'}\nEND_PROGRAM\n"));
-  EXPECT_THAT(model.objects[0].text, Not(HasSubstr("_NETWORKS")));
-  ASSERT_THAT(model.leftOut, SizeIs(1));
-  EXPECT_EQ(model.leftOut[0].origin.line, 4U);
+  ASSERT_THAT(model.drawn, SizeIs(1));
+  EXPECT_EQ(model.drawn[0].kind, "LD");
+  EXPECT_EQ(model.drawn[0].origin.line, 4U);
+  EXPECT_EQ(model.objects[0].text,
+            "PROGRAM P\nVAR\nEND_VAR\n" + model.drawn[0].mark + "\nEND_PROGRAM\n");
 }
 
-TEST(ExpReader, unknownSectionsAreLeftOutAsAWhole) {
+TEST(ExpReader, unknownSectionsAreKeptAsText) {
   const Model model =
-      read("_WORKSPACE\n(* PROGRAM X\n_END_WORKSPACE\nPLC_CONFIGURATION\n_A\nPLC_END\nPROGRAM "
-           "P\nEND_PROGRAM\nrubbish\n");
-  EXPECT_THAT(model.objects, SizeIs(1));
-  ASSERT_THAT(model.leftOut, SizeIs(3));
-  EXPECT_EQ(model.leftOut[1].object, "PLC_CONFIGURATION");
-  EXPECT_EQ(model.leftOut[2].origin.line, 9U);
+      read("_WORKSPACE\n(* PROGRAM X\n_END_WORKSPACE\n_CURVES\n_A\n_END_CURVES\nPROGRAM "
+           "P\nEND_PROGRAM\nrubbish\n_OPEN\n_A : 1\nFUNCTION F : INT\nEND_FUNCTION\n");
+  EXPECT_THAT(model.objects, SizeIs(2)) << "a section without end takes nothing with it";
+  ASSERT_THAT(model.leftOut, SizeIs(2));
+  EXPECT_EQ(model.leftOut[0].object, "_CURVES");
+  EXPECT_EQ(model.leftOut[1].origin.line, 9U);
+  ASSERT_THAT(model.kept, SizeIs(1));
+  EXPECT_EQ(model.kept[0].text, "_CURVES\n_A\n_END_CURVES\n");
+}
+
+TEST(ExpReader, commentsBetweenObjectsStay) {
+  const Model model = read("(* first\n *)\nPROGRAM P\nEND_PROGRAM\n(* of the action *)\nACTION A:\n"
+                           "END_ACTION\n(* last *)\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_EQ(model.objects[0].text, "(* first\n *)\nPROGRAM P\n\n(* of the action *)\nACTION A:\n"
+                                   "END_ACTION\nEND_PROGRAM\n(* last *)\n");
+  EXPECT_THAT(read("(* alone *)").kept, SizeIs(1));
+}
+
+TEST(ExpReader, onlyKnownKeysAreAttributes) {
+  const Model model = read("(* @WHAT := 'x' *)\nPROGRAM P\n(* @END_DECLARATION := '0' *)\n"
+                           "(* @note := 'x' *)\nEND_PROGRAM\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_EQ(model.objects[0].text, "PROGRAM P\n(* @note := 'x' *)\nEND_PROGRAM\n");
+  ASSERT_THAT(model.changed, SizeIs(1));
+  EXPECT_EQ(model.changed[0].object, "attribute @WHAT");
+}
+
+TEST(ExpReader, instructionsAreTheCompilersBusiness) {
+  const Model model = read("PROGRAM P\n_IL_BODY\nLD n\nEND_PROGRAM\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_EQ(model.objects[0].text, "PROGRAM P\nLD n\nEND_PROGRAM\n");
+}
+
+TEST(ExpReader, kindsOfTasks) {
+  const Model model =
+      read("RESOURCE\nTASK A (EVENT := MAX(a, b) > 2, PRIORITY := 4);\nP();\nEND_TASK\n"
+           "TASK B (INTERVAL := T#7ms, EVENT := x);\nP();\n{Additional_info : 1,0}\n"
+           "END_TASK\nTASK C (INTERVAL := T#7ms);\n{Additional_info : 2,3}\nEND_TASK\n"
+           "{event_task : 'start','what','Go','x'}\nEND_RESOURCE\n");
+  ASSERT_THAT(model.tasks, SizeIs(3));
+  EXPECT_EQ(model.tasks[0].event, "MAX(a, b) > 2");
+  EXPECT_EQ(model.tasks[0].priority, "4");
+  EXPECT_EQ(model.tasks[1].event, "") << "a cyclic task";
+  EXPECT_EQ(model.tasks[1].interval, "T#7ms");
+  EXPECT_EQ(model.tasks[2].interval, "") << "a freewheeling task";
+  EXPECT_THAT(model.changed, SizeIs(2));
+  ASSERT_THAT(model.leftOut, SizeIs(2));
+  EXPECT_THAT(model.leftOut[0].text, HasSubstr("watchdog"));
+  EXPECT_EQ(model.leftOut[1].object, "system event start");
 }
 
 TEST(ExpReader, theOldWordForFunctionBlocksIsReplaced) {
@@ -140,6 +184,43 @@ TEST(ExpReader, aTruncatedObjectIsALoss) {
 TEST(ExpReader, foldersCannotLeaveTheProject) {
   EXPECT_THAT(foldersOf("\\/..\\/a/b\\/C:\\/ "), ElementsAre("_.", "a_b", "C_"));
   EXPECT_THAT(foldersOf(""), IsEmpty());
+}
+
+/// A module of the PLC configuration with what is inside it.
+std::string module(const std::string &section, const std::string &name, const std::string &inside) {
+  return "_MODULE: '3S'\n_SECTION_NAME: '" + section + "'\n_MODULE_NAME: '" + name + "'\n" +
+         inside + "_END_MODULE\n";
+}
+
+TEST(ExpReader, aBusInsideAnotherOneIsALoss) {
+  const std::string drive = module("Drive", "Ram", "_PARAM 201: 0, '7'\n");
+  const Model model =
+      read("PLC_CONFIGURATION\n" +
+           module("BusInterface", "A",
+                  module("AxisGroup", "G",
+                         "_PARAM 99: 0, '1'\n" + module("BusInterface", "B", drive) +
+                             "_PARAM 100: 0, '2'\n" + drive + module("Encoder", "Belt", ""))) +
+           module("BusInterface", "C", module("Drive", "Lone", "")) + "PLC_END\n");
+  ASSERT_THAT(model.buses, SizeIs(2));
+  ASSERT_THAT(model.buses[0].groups, SizeIs(1));
+  EXPECT_THAT(model.buses[0].groups[0].numbered, SizeIs(2));
+  EXPECT_THAT(model.buses[0].groups[0].drives, SizeIs(2));
+  EXPECT_THAT(model.buses[0].groups[0].encoders, SizeIs(1));
+  EXPECT_EQ(model.buses[1].name, "C");
+  EXPECT_THAT(model.buses[1].groups, IsEmpty());
+  ASSERT_THAT(model.leftOut, SizeIs(1));
+  EXPECT_EQ(model.leftOut[0].object, "bus interface `B`");
+  EXPECT_EQ(model.leftOut[0].origin.line, 9U);
+}
+
+TEST(ExpReader, anAttributeThatIsNotClosedTakesOneLine) {
+  const Model model = read("(* a *)\n(* @PATH := '\\/Motion'\nPROGRAM P\nEND_PROGRAM\n");
+  ASSERT_THAT(model.objects, SizeIs(1));
+  EXPECT_THAT(model.objects[0].folder, ElementsAre("Motion"));
+  ASSERT_THAT(model.leftOut, SizeIs(1));
+  EXPECT_EQ(model.leftOut[0].object, "attribute @PATH");
+  EXPECT_EQ(model.leftOut[0].origin.line, 2U);
+  EXPECT_THAT(read("(* @SYMFILEFLAGS := 'a'\n'b' *)\nPROGRAM P\nEND_PROGRAM\n").leftOut, IsEmpty());
 }
 
 } // namespace

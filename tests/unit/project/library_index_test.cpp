@@ -40,9 +40,12 @@ TEST(LibraryIndexTables, FindOneFilePerLibraryInOrder) {
 
 TEST(StandardLibrary, KnowsItsDeclarations) {
   const EmbeddedLibraryIndex index(standardLibrary());
-  ASSERT_THAT(index.find("mc_power"), SizeIs(1));
+  ASSERT_THAT(index.find("mc_power"), SizeIs(2)); // also Tc2_MC2's, by its library's name only
   EXPECT_EQ(index.find("mc_power")[0].library, "SM_PLCopen");
   EXPECT_EQ(index.find("mc_power")[0].fileName, "<stdlib>/SM_PLCopen/MC_Power.st");
+  EXPECT_FALSE(index.find("mc_power")[0].qualifiedOnly);
+  EXPECT_EQ(index.find("mc_power")[1].library, "Tc2_MC2");
+  EXPECT_TRUE(index.find("mc_power")[1].qualifiedOnly);
   EXPECT_THAT(std::string(index.find("axis_ref")[0].text), HasSubstr("fSetPosition"));
   EXPECT_THAT(index.find("g_strbootuperror"), SizeIs(1)); // a global variable
   EXPECT_THAT(index.find("smc_no_error"), SizeIs(1));     // an enumerator

@@ -59,7 +59,8 @@ const std::vector<Source> &sources() {
       const FileId id = manager.addBytes("x", bytes);
       std::string text(manager.file(id).text());
       const Parsed parsed(text);
-      if (isClean(parsed) && !parsed.file->hasInstructions) // whose lines stay as they are
+      if (isClean(parsed) && !parsed.file->hasInstructions &&
+          !parsed.file->hasChart) // whose lines stay as they are
         out.push_back({fs::relative(files[i], STRIDE_SOURCE_DIR).string(), std::move(text)});
     }
     return out;

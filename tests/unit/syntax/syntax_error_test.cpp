@@ -86,8 +86,8 @@ TEST(SyntaxError, ElseIf) {
 
 TEST(SyntaxError, AssignmentAndComparison) {
   EXPECT_EQ(bodyErrors("\na = 5;"), "SE0204 2:3 `=` compares, it does not assign\n");
-  EXPECT_EQ(bodyErrors("\na.b[1] = b = 5; IF a := 1 AND b THEN c := 1; END_IF"),
-            "SE0204 2:8 `=` compares, it does not assign\nSE0205 2:22 `:=` assigns, it does not "
+  EXPECT_EQ(bodyErrors("\na.b[1] = b = 5; IF a[0] := 1 AND b THEN c := 1; END_IF"),
+            "SE0204 2:8 `=` compares, it does not assign\nSE0205 2:25 `:=` assigns, it does not "
             "compare\n");
   EXPECT_EQ(bodyErrors("\nFOR i = 1 TO 5 DO END_FOR"),
             "SE0204 2:7 `=` compares, it does not assign\n");
@@ -195,11 +195,14 @@ TEST(SyntaxError, Tokens) {
             "SE0115 1:17 malformed direct address\nSE0115 1:34 malformed direct address\n");
 }
 
-TEST(SyntaxError, NotSupported) {
+TEST(SyntaxError, OtherLanguages) {
   EXPECT_EQ(bodyErrors("\nLD a\nAND b\nST c\n"), "");
   EXPECT_EQ(bodyErrors("\nINITIAL_STEP s:\nEND_STEP\nTRANSITION FROM s TO t := a;\nEND_TRANSITION"
                        "\nACTION x:\ny := 1;\nEND_ACTION\nSTEP t:\nx(N);\nEND_STEP"),
-            "SE0208 2:1 a sequential function chart (SFC) is not supported by this version\n");
+            "");
+  EXPECT_EQ(bodyErrors("\nINITIAL_STEP s:\nEND_STEP\nTRANSITION FROM s TO t := a;\nEND_TRANSITION"
+                       "\nACTION x:\ny := 1;\nEND_ACTION\nSTEP t\nx(N);\nEND_STEP"),
+            "SE0202 10:1 expected `:` in a sequential function chart\n");
 }
 
 TEST(SyntaxError, NoCascades) {

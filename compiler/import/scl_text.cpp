@@ -1,0 +1,335 @@
+#include "compiler/import/scl_text.hpp"
+
+#include "compiler/import/exp_lines.hpp"
+#include "compiler/import/st_scan.hpp"
+#include "runtime/common/text.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace stc::import {
+
+namespace scl {
+namespace {
+
+constexpr size_t kDeepest = 64;
+
+struct Prefix {
+  std::string_view from;
+  std::string_view to;
+};
+
+/// How constants name their types.
+constexpr std::array<Prefix, 5> kPrefixes = {
+    {{"l#", "DINT#"}, {"b#", "BYTE#"}, {"w#", "WORD#"}, {"dw#", "DWORD#"}, {"lw#", "LWORD#"}}};
+
+/// Constants that are nothing here.
+constexpr std::array<std::string_view, 5> kUnknownConstants = {"s5t#", "s5time#", "c#", "p#",
+                                                               "dtl#"};
+
+/// Types that only a Siemens CPU has.
+constexpr std::array<std::string_view, 12> kUnknownTypes = {
+    "dtl",   "s5time",  "variant",  "any",    "pointer",  "block_fb",
+    "timer", "counter", "block_fc", "hw_any", "block_db", "remote"};
+
+bool ends(const SclToken &token, char sign) {
+  return token.kind == SclKind::Sign && token.text.size() == 1 && token.text.front() == sign;
+}
+
+/// Whether nothing has been written from `from` on.
+bool nothingSince(std::string_view out, size_t from) {
+  return out.substr(std::min(from, out.size())).find_first_not_of(" \t\r\n\f\v") ==
+         std::string_view::npos;
+}
+
+bool isOver(const SclToken &token) {
+  return token.kind == SclKind::Blank || token.kind == SclKind::Comment ||
+         token.kind == SclKind::Attribute;
+}
+
+} // namespace
+} // namespace scl
+
+void SclText::leaveOut(size_t line, std::string why) {
+  if (named_.insert(why).second)
+    model_.leftOut.push_back({{file_, line}, object_, std::move(why)});
+}
+
+void SclText::changed(size_t line, std::string what) {
+  if (named_.insert(what).second)
+    model_.changed.push_back({{file_, line}, object_, std::move(what)});
+}
+
+/// Comments nest here and do not there.
+std::string SclText::comment(std::string_view text) {
+  if (text.starts_with("//"))
+    return std::string(text);
+  std::string_view inside = text;
+  inside.remove_prefix(2);
+  const bool closed = inside.ends_with("*)") || inside.ends_with("/)");
+  inside.remove_suffix(closed ? 2 : 0);
+  if (text.starts_with("(/*"))
+    inside = inside.substr(1, inside.size() - (inside.ends_with('*') ? 2 : 1));
+  std::string out = "(*";
+  for (size_t i = 0; i < inside.size(); ++i) {
+    out += inside[i];
+    const std::string_view pair = inside.substr(i, 2);
+    if (pair == "(*" || pair == "*)")
+      out += ' ';
+  }
+  return out + (inside.ends_with('(') ? " *)" : "*)");
+}
+
+std::string SclText::literal(const SclToken &token) {
+  const std::string lower = stride::common::lowerCase(token.text);
+  for (const scl::Prefix &each : scl::kPrefixes)
+    if (lower.starts_with(each.from))
+      return std::string(each.to) + std::string(token.text.substr(each.from.size()));
+  for (const std::string_view each : scl::kUnknownConstants)
+    if (lower.starts_with(each))
+      leaveOut(token.line, fmt::format("constants like `{}` have no counterpart", token.text));
+  return std::string(token.text);
+}
+
+std::string SclText::plain(const SclToken &token) {
+  switch (token.kind) {
+  case SclKind::Quoted:
+  case SclKind::Local: {
+    const std::string_view name = sclName(token);
+    std::string here = asIdentifier(name);
+    if (here != name)
+      changed(token.line, fmt::format("`{}` is called {} here", name, here));
+    return here;
+  }
+  case SclKind::Literal:
+    return literal(token);
+  case SclKind::Comment:
+    return comment(token.text);
+  case SclKind::Attribute:
+    return {};
+  default:
+    return std::string(token.text);
+  }
+}
+
+void SclText::pass(std::string &out) {
+  for (; !atEnd() && scl::isOver(now()); ++at_)
+    if (now().kind != SclKind::Attribute)
+      out += plain(now());
+}
+
+std::string SclText::takeName() {
+  std::string passed;
+  pass(passed);
+  if (atEnd() || (now().kind != SclKind::Word && now().kind != SclKind::Quoted &&
+                  now().kind != SclKind::Local))
+    return {};
+  return plain(tokens_[at_++]);
+}
+
+const SclToken *SclText::significant(size_t from) const {
+  while (from < tokens_.size() && scl::isOver(tokens_[from]))
+    ++from;
+  return from < tokens_.size() ? &tokens_[from] : nullptr;
+}
+
+/// A structure becomes a type of its own, for here only types have one.
+void SclText::structure(std::string &out, const std::string &name) {
+  const size_t line = now().line;
+  skip(); // STRUCT
+  if (++depth_ > scl::kDeepest) {
+    leaveOut(line, "its structures are nested too deep");
+    at_ = limit_;
+    return;
+  }
+  std::string inside;
+  members(inside, name, "END_STRUCT", {});
+  --depth_;
+  hoisted_ += fmt::format("TYPE {} :\nSTRUCT{}END_STRUCT\nEND_TYPE\n\n", name, inside);
+  changed(line, fmt::format("a structure without a name became the type {}", name));
+  out += name;
+}
+
+void SclText::typeWord(const SclToken &token) {
+  if (token.kind == SclKind::Word &&
+      std::ranges::find(scl::kUnknownTypes, stride::common::lowerCase(token.text)) !=
+          scl::kUnknownTypes.end())
+    leaveOut(token.line, fmt::format("the type {} has no counterpart", token.text));
+}
+
+void SclText::type(std::string &out, const std::string &name) {
+  for (; !atEnd(); ++at_) {
+    if (isNow("STRUCT")) {
+      structure(out, name);
+      return;
+    }
+    if (scl::ends(now(), ';') || now().text == ":=")
+      return;
+    typeWord(now());
+    out += plain(now());
+  }
+}
+
+void SclText::memberValue(std::string &out, const std::string &name, std::string_view end,
+                          const MemberRules &rules) {
+  const size_t value = out.size();
+  const size_t line = atEnd() ? 0 : now().line;
+  for (; !atEnd() && !scl::ends(now(), ';') && !isNow(end); ++at_)
+    out += plain(now());
+  if (rules.noValues && trimmed(std::string_view(out).substr(value)).starts_with(":=")) {
+    out.resize(value);
+    while (!out.empty() && out.back() == ' ')
+      out.pop_back();
+    changed(line, fmt::format("the initial value of `{}` is dropped: it is a VAR_IN_OUT", name));
+  }
+  if (rules.initial == nullptr)
+    return;
+  const auto given = rules.initial->find(stride::common::lowerCase(name));
+  if (given == rules.initial->end())
+    return;
+  out.resize(value);
+  while (!out.empty() && out.back() == ' ')
+    out.pop_back();
+  out += " := " + given->second;
+  rules.initial->erase(given);
+}
+
+void SclText::members(std::string &out, const std::string &owner, std::string_view end,
+                      const MemberRules &rules) {
+  while (!atEnd()) {
+    pass(out);
+    if (isNow(end)) {
+      skip();
+      return;
+    }
+    const size_t begin = at_;
+    const std::string name = takeName();
+    if (name.empty()) {
+      if (!atEnd())
+        out += plain(tokens_[at_++]);
+      continue;
+    }
+    out += name;
+    for (; !atEnd() && !scl::ends(now(), ':') && !scl::ends(now(), ';') && !isNow(end); ++at_) {
+      if (isNow("AT"))
+        leaveOut(now().line, fmt::format("`{}` is a view of another variable (AT)", name));
+      out += plain(now());
+    }
+    if (!atEnd() && scl::ends(now(), ':')) {
+      out += plain(tokens_[at_++]);
+      type(out, fmt::format("{}_{}", owner, name));
+    }
+    memberValue(out, name, end, rules);
+    if (at_ == begin)
+      ++at_;
+  }
+}
+
+std::string SclText::value() {
+  std::string out;
+  for (; !atEnd() && !scl::ends(now(), ';'); ++at_)
+    out += plain(now());
+  if (!atEnd())
+    skip();
+  return std::string(trimmed(out));
+}
+
+/// `REGION a name` to the end of the line becomes a comment, and so does END_REGION.
+void SclText::region(std::string &out) {
+  out += "//";
+  for (bool first = true; !atEnd(); ++at_, first = false) {
+    const std::string_view text = now().text;
+    const size_t end = text.find('\n');
+    if (end != std::string_view::npos && now().kind == SclKind::Blank) {
+      statement_ = out.size();
+      return;
+    }
+    out += first ? " " : "";
+    out += text;
+  }
+}
+
+void SclText::address(std::string &out) {
+  const SclToken *area = at_ + 1 < tokens_.size() ? &tokens_[at_ + 1] : nullptr;
+  out += '%';
+  skip();
+  if (area == nullptr || area->kind != SclKind::Word || area->text.size() < 2)
+    return;
+  const char letter = area->text.front();
+  const bool bit =
+      std::ranges::all_of(area->text.substr(1), [](char c) { return c >= '0' && c <= '9'; });
+  if (bit && std::string_view("IQMiqm").find(letter) != std::string_view::npos) {
+    out += fmt::format("{}X{}", letter, area->text.substr(1));
+    skip();
+  } else if (stride::common::lowerCase(area->text).starts_with("db")) {
+    leaveOut(area->line, fmt::format("the address %{} lies in a data block", area->text));
+  }
+}
+
+/// `a += b;` becomes `a := a + (b);`.
+void SclText::compound(std::string &out) {
+  const char sign = now().text.front();
+  const std::string target(trimmed(std::string_view(out).substr(std::min(statement_, out.size()))));
+  out += fmt::format(":= {} {} (", target, sign);
+  closing_ = true;
+  skip();
+}
+
+void SclText::statementToken(std::string &out) {
+  static constexpr std::array<std::string_view, 6> kBeginsAfter = {"THEN",   "ELSE", "DO",
+                                                                   "REPEAT", "OF",   "BEGIN"};
+  const SclToken &token = now();
+  const bool compoundSign = token.kind == SclKind::Sign && token.text.size() == 2 &&
+                            token.text[1] == '=' &&
+                            std::string_view("+-*/").find(token.text[0]) != std::string_view::npos;
+  if (compoundSign)
+    return compound(out);
+  if (scl::ends(token, '%') && (out.empty() || out.back() != '.'))
+    return address(out);
+  if (scl::ends(token, ';') && closing_) {
+    out += ')';
+    closing_ = false;
+  }
+  if (isSclWord(token, "GOTO"))
+    out += "JMP";
+  else
+    out += plain(token);
+  skip();
+  const bool first = scl::nothingSince(out, statement_);
+  const bool begins = std::ranges::any_of(
+      kBeginsAfter, [&](std::string_view each) { return isSclWord(token, each); });
+  if (first || begins || scl::ends(token, ';') || scl::ends(token, ':') ||
+      token.kind == SclKind::Comment)
+    statement_ = out.size();
+}
+
+bool SclText::statements(std::string &out, std::string_view end) {
+  statement_ = out.size();
+  closing_ = false;
+  while (!atEnd()) {
+    if (isNow(end)) {
+      skip();
+      return true;
+    }
+    const SclToken *next = significant(at_ + 1);
+    const bool begins = scl::nothingSince(out, statement_);
+    if (begins && isNow("REGION") && (next == nullptr || next->text != ":=")) {
+      region(out);
+    } else if (isNow("END_REGION")) {
+      out += "// END_REGION";
+      skip();
+      if (!atEnd() && scl::ends(now(), ';'))
+        skip();
+      if (!atEnd() && now().text.find('\n') == std::string_view::npos)
+        out += '\n';
+      statement_ = out.size();
+    } else {
+      statementToken(out);
+    }
+  }
+  return false;
+}
+
+} // namespace stc::import

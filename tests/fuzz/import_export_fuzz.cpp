@@ -1,0 +1,20 @@
+// Any bytes as a export of CODESYS V3.
+#include "compiler/import/codesys_export_reader.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  using namespace stc::import;
+  Model model;
+  readCodesysExport("x.export", {reinterpret_cast<const char *>(data), size}, model);
+  for (const Object &each : model.objects)
+    if (each.text.empty() || each.text.back() != '\n' || each.origin.line == 0)
+      std::abort();
+  for (const Remark &each : model.leftOut)
+    if (each.text.empty())
+      std::abort();
+  return 0;
+}

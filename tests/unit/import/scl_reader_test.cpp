@@ -1,0 +1,199 @@
+// Reading sources of Siemens SCL: words, frames, data blocks, structures.
+#include "compiler/import/scl_reader.hpp"
+#include "compiler/import/scl_tokens.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace stc::import;
+
+Model read(std::string_view text) {
+  Model model;
+  readScl("src/Blocks.scl", text, model);
+  return model;
+}
+
+std::string onlyText(std::string_view text) {
+  const Model model = read(text);
+  EXPECT_EQ(model.objects.size(), 1U);
+  return model.objects.empty() ? std::string() : model.objects[0].text;
+}
+
+TEST(SclTokens, JoinToTheTextAgain) {
+  constexpr std::string_view kText = "#x := \"a b\".c[0..3] + T#1h_5s-16#FF*1.5e-3; // c\n(* d *) "
+                                     "{E := 'f}'} DT#2023-11-08-16:59:10"
+                                     " 'g$'h' #\"i j\"<>5..6 (/* k */) W#16#1F";
+  std::string joined;
+  std::vector<std::string> kinds;
+  for (const SclToken &token : sclTokens(kText)) {
+    joined += token.text;
+    if (token.kind != SclKind::Blank && token.kind != SclKind::Sign)
+      kinds.emplace_back(token.text);
+  }
+  EXPECT_EQ(joined, kText);
+  EXPECT_EQ(kinds,
+            (std::vector<std::string>{"#x", "\"a b\"", "c", "0", "3", "T#1h_5s", "16#FF", "1.5e-3",
+                                      "// c", "(* d *)", "{E := 'f}'}", "DT#2023-11-08-16:59:10",
+                                      "'g$'h'", "#\"i j\"", "5", "6", "(/* k */)", "W#16#1F"}));
+}
+
+TEST(SclReader, RewritesAFunctionBlock) {
+  EXPECT_EQ(onlyText("// of the file\n"
+                     "FUNCTION_BLOCK \"Level Control\"\n"
+                     "TITLE = Level (new)\n"
+                     "{ S7_Optimized_Access := 'TRUE' }\n"
+                     "AUTHOR : Me\n"
+                     "VERSION : 0.1\n"
+                     "//what it does\n"
+                     "   VAR_INPUT\n"
+                     "      Level { S7_SetPoint := 'True'} : Real := 1.5;   // [m]\n"
+                     "   END_VAR\n\n"
+                     "   VAR RETAIN\n      n : DInt := L#7;\n   END_VAR\n"
+                     "   VAR DB_SPECIFIC\n      \"last value\" : Array[0..2] of Word;\n   END_VAR\n"
+                     "   VAR_IN_OUT\n      io : Int := 4;\n   END_VAR\n"
+                     "   VAR CONSTANT\n      Top : Int := 3;\n   END_VAR\n"
+                     "BEGIN\n"
+                     "\tREGION Limits (1)\n"
+                     "\t  IF #Level > 2.5 THEN // (* old\n"
+                     "\t    #\"last value\"[0] := W#16#1F; (* a (* b *)\n"
+                     "\t    #n += #io;\n"
+                     "\t  END_IF;\n"
+                     "\tEND_REGION\n"
+                     "\t\"Tags\".run := %I0.3 AND #n.%X2;\n"
+                     "\tGOTO ende;\n"
+                     "\tende: ;\n"
+                     "END_FUNCTION_BLOCK\n"),
+            "// of the file\n"
+            "// TITLE = Level (new)\n// AUTHOR : Me\n// VERSION : 0.1\n//what it does\n"
+            "FUNCTION_BLOCK Level_Control\n"
+            "VAR_INPUT\n      Level  : Real := 1.5;   // [m]\n   END_VAR\n\n"
+            "   VAR RETAIN\n      n : DInt := DINT#7;\n   END_VAR\n"
+            "   VAR\n      last_value : Array[0..2] of Word;\n   END_VAR\n"
+            "   VAR_IN_OUT\n      io : Int;\n   END_VAR\n"
+            "   VAR CONSTANT\n      Top : Int := 3;\n   END_VAR\n"
+            "\n"
+            "\t// REGION Limits (1)\n"
+            "\t  IF Level > 2.5 THEN // (* old\n"
+            "\t    last_value[0] := WORD#16#1F; (* a ( * b *)\n"
+            "\t    n := n + ( io);\n"
+            "\t  END_IF;\n"
+            "\t// END_REGION\n"
+            "\tTags.run := %IX0.3 AND n.%X2;\n"
+            "\tJMP ende;\n"
+            "\tende: ;\n"
+            "END_FUNCTION_BLOCK\n");
+}
+
+TEST(SclReader, ReportsWhatItRenames) {
+  const Model model = read("FUNCTION \"a b\" : Int\nBEGIN\n#\"a b\" := #\"x y\";\n#\"x y\" := 2;\n"
+                           "END_FUNCTION\n");
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(model.objects[0].text, "FUNCTION a_b : Int\n\na_b := x_y;\nx_y := 2;\nEND_FUNCTION\n");
+  ASSERT_EQ(model.changed.size(), 2U);
+  EXPECT_EQ(model.changed[0].object, "FUNCTION");
+  EXPECT_EQ(model.changed[1].object, "FUNCTION a_b");
+  EXPECT_EQ(model.changed[1].text, "`x y` is called x_y here");
+  EXPECT_EQ(model.changed[1].origin.line, 3U);
+}
+
+TEST(SclReader, MakesAProgramOfAnOrganizationBlock) {
+  const Model model = read("ORGANIZATION_BLOCK \"Main\"\nVAR_TEMP\n  t : Int;\nEND_VAR\n\nBEGIN\n"
+                           "  \"Level\"(x := #t);\nEND_ORGANIZATION_BLOCK\n"
+                           "ORGANIZATION_BLOCK OB35\nBEGIN\nEND_ORGANIZATION_BLOCK\n");
+  ASSERT_EQ(model.objects.size(), 2U);
+  EXPECT_EQ(model.objects[0].text,
+            "PROGRAM Main\nVAR_TEMP\n  t : Int;\nEND_VAR\n\n\n  Level(x := t);\nEND_PROGRAM\n");
+  ASSERT_EQ(model.tasks.size(), 1U);
+  EXPECT_EQ(model.tasks[0].programs, (std::vector<std::string>{"Main"}));
+  ASSERT_EQ(model.leftOut.size(), 1U);
+  EXPECT_EQ(model.leftOut[0].object, "ORGANIZATION_BLOCK OB35");
+}
+
+TEST(SclReader, MakesVariablesOfDataBlocks) {
+  const Model model =
+      read("DATA_BLOCK \"Tags\"\n{ S7_Optimized_Access := 'TRUE' }\nVERSION : 0.1\nNON_RETAIN\n"
+           "   VAR\n      run : Bool;\n      top : Int := 5;\n      f : Array[1..2] of Real;\n"
+           "   END_VAR\n\nBEGIN\n   run := TRUE;\n   top := 7;\n   f[1] := 2.5;\nEND_DATA_BLOCK\n"
+           "DATA_BLOCK \"Level_DB\"\nVERSION : 0.1\n\"Level\"\nBEGIN\n   Kp := 1.5;\n"
+           "END_DATA_BLOCK\n"
+           "DATA_BLOCK DB7\n  STRUCT\n    a : INT;\n  END_STRUCT ;\nBEGIN\nEND_DATA_BLOCK\n");
+  ASSERT_EQ(model.objects.size(), 3U);
+  EXPECT_EQ(model.objects[0].kind, ObjectKind::GlobalList);
+  EXPECT_EQ(model.objects[0].name, "Tags");
+  EXPECT_EQ(model.objects[0].text,
+            "// VERSION : 0.1\n// NON_RETAIN\n{attribute 'qualified_only'}\nVAR_GLOBAL\n"
+            "      run : Bool := TRUE;\n      top : Int := 7;\n      f : Array[1..2] of Real;\n"
+            "   END_VAR\n");
+  EXPECT_EQ(model.objects[1].text,
+            "// VERSION : 0.1\nVAR_GLOBAL\n  Level_DB : Level := (kp := 1.5);\nEND_VAR\n");
+  EXPECT_EQ(model.objects[2].text,
+            "{attribute 'qualified_only'}\nVAR_GLOBAL\n    a : INT;\n  END_VAR\n");
+  ASSERT_EQ(model.leftOut.size(), 1U);
+  EXPECT_NE(model.leftOut[0].text.find("f[1] := 2.5"), std::string::npos);
+}
+
+TEST(SclReader, GivesStructuresNames) {
+  EXPECT_EQ(onlyText("TYPE \"Axis\"\nVERSION : 0.1\n   STRUCT\n      a : Struct\n"
+                     "         b : Array[0..1] of Struct\n            c : Int := 3;\n"
+                     "         END_STRUCT;\n      END_STRUCT;\n      d : \"Other\";\n"
+                     "   END_STRUCT;\n\nEND_TYPE\n"),
+            "TYPE Axis_a_b :\nSTRUCT\n            c : Int := 3;\n         END_STRUCT\nEND_TYPE\n\n"
+            "TYPE Axis_a :\nSTRUCT\n         b : Array[0..1] of Axis_a_b;\n      END_STRUCT\n"
+            "END_TYPE\n\n"
+            "// VERSION : 0.1\nTYPE Axis :\nSTRUCT\n      a : Axis_a;\n      d : Other;\n"
+            "   END_STRUCT\nEND_TYPE\n");
+}
+
+TEST(SclReader, NamesWhatHasNoCounterpart) {
+  const Model model = read("FUNCTION_BLOCK F\nVAR\n  t : DTL;\n  w : Word;\n  b AT w : "
+                           "Array[0..15] of Bool;\nEND_VAR\nCONST\n  K := 5;\nEND_CONST\n"
+                           "LABEL\n  m1;\nEND_LABEL\nBEGIN\n  #s := S5T#2s;\n  #x := "
+                           "%DB1.DBX0.0;\nEND_FUNCTION_BLOCK\nrest\n");
+  ASSERT_EQ(model.objects.size(), 1U);
+  std::vector<std::string> said;
+  for (const Remark &each : model.leftOut)
+    said.push_back(std::to_string(each.origin.line) + each.text.substr(0, 12));
+  EXPECT_EQ(said, (std::vector<std::string>{"3the type DTL", "5`b` is a vie", "7constants of",
+                                            "14constants li", "15the address ", "17it belongs t"}))
+      << model.leftOut.size();
+}
+
+TEST(SclReader, LeavesOutWhatDoesNotEnd) {
+  const Model model = read("FUNCTION_BLOCK A\nBEGIN\nEND_FUNCTION_BLOCK\nTYPE B\nSTRUCT\n");
+  EXPECT_EQ(model.objects.size(), 1U);
+  ASSERT_EQ(model.leftOut.size(), 1U);
+  EXPECT_EQ(model.leftOut[0].origin.line, 4U);
+  EXPECT_EQ(read("TYPE").leftOut.size(), 1U);
+  EXPECT_EQ(read("").objects.size(), 0U);
+}
+
+TEST(SclReader, KnowsItsFiles) {
+  EXPECT_TRUE(isScl("DATA_BLOCK \"x\""));
+  EXPECT_FALSE(isScl("<?xml version='1.0'?><a>DATA_BLOCK</a>"));
+  EXPECT_FALSE(isScl("FUNCTION_BLOCK x"));
+}
+
+TEST(SclReader, CommentsDoNotBeginAtTheirEnd) {
+  EXPECT_EQ(onlyText("FUNCTION_BLOCK F\nBEGIN\n(* a (*) #n := 1; (*(*) #m := 2;\n"
+                     "END_FUNCTION_BLOCK\n"),
+            "FUNCTION_BLOCK F\n\n(* a ( *) n := 1; (*( *) m := 2;\nEND_FUNCTION_BLOCK\n");
+}
+
+TEST(SclReader, DeclarationsThatDoNotEndTakeOnlyTheirBlock) {
+  const Model model = read("FUNCTION_BLOCK A\nVAR\n  n : Int;\nBEGIN\n  #n := 1;\n"
+                           "END_FUNCTION_BLOCK\n"
+                           "DATA_BLOCK D\nSTRUCT\n  m : Int;\nBEGIN\n  m := 3\nEND_DATA_BLOCK\n"
+                           "FUNCTION_BLOCK B\nVAR\n  k : Int;\nEND_VAR\nBEGIN\n  #k := 2;\n"
+                           "END_FUNCTION_BLOCK\n");
+  ASSERT_EQ(model.objects.size(), 1U);
+  EXPECT_EQ(model.objects[0].name, "B");
+  EXPECT_EQ(model.objects[0].origin.line, 13U);
+  std::vector<std::string> lost;
+  for (const Remark &each : model.leftOut)
+    if (each.text.find("do not end") != std::string::npos)
+      lost.push_back(each.object);
+  EXPECT_EQ(lost, (std::vector<std::string>{"FUNCTION_BLOCK A", "DATA_BLOCK D"}));
+}
+
+} // namespace
