@@ -199,6 +199,12 @@ const RegisterRow kRegisters[] = {
     {"DENOMINATOR", Memory, Real, 40, 0, kFollow, true, "denominator of the ratio", 1, 6, 8},
     {"TRIGGER_POSITION", Memory, Real, 42, 0, kFollow, true, "threshold where following starts", 1,
      6, 8},
+    {"EXCH_ADJ", Memory, Int, kOwnWord, 0, kCommanded | kTrf | kModule, false,
+     "which exchange of parameters: 1 read, 2 write, 3 save, 4 restore"},
+    {"EXCH_LENGTH", Memory, Dint, kOwnWord + 1, 0, kCommanded | kTrf | kModule, false,
+     "words of the table of a transfer"},
+    {"EXCH_TABLE", Memory, Dint, kOwnWord + 3, 0, kCommanded | kTrf | kModule, false,
+     "number of its first word, %MW"},
 };
 
 const size_t kRegisterRows = sizeof kRegisters / sizeof kRegisters[0];

@@ -34,6 +34,8 @@ enum class RegisterType : uint8_t { Bool, Int, Dint, Real };
 
 inline constexpr uint8_t kNoWord = 255;
 inline constexpr uint8_t kErrorBit = 255; ///< %I….ERR
+/// Words from here on are not the manual's: they carry what READ_PARAM and the others ask for.
+inline constexpr uint8_t kOwnWord = 120;
 
 /// One register, or several of them whose names end in numbers.
 struct RegisterRow {

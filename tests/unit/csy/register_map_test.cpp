@@ -52,6 +52,8 @@ std::map<std::string, std::string> tableRows() {
   for (const uint8_t kind : kKinds) {
     Register found{};
     for (size_t i = 0; registerAt(kind, i, found); ++i) {
+      if (found.word != kNoWord && found.word >= kOwnWord)
+        continue;
       const std::string key = std::string(nameOfKind(kind)) + " " + found.symbol;
       EXPECT_FALSE(rows.contains(key)) << key;
       rows[key] = std::string(typeName(found.row->type)) + " " + addressOf(found);
@@ -126,16 +128,20 @@ std::string structure(uint8_t kind) {
                      ";`.\n"
                      "/// Source: TSX CSY 85 configuration manual 35010452, chapter 5.\n"
                      "TYPE " +
-                     name + " :\nSTRUCT\n";
+                     name + " EXTENDS T_CSY_EXCHANGE :\nSTRUCT\n";
   Register found{};
+  bool first = true;
   for (size_t i = 0; registerAt(kind, i, found); ++i) {
     const RegisterRow &row = *found.row;
+    if (std::string_view(row.symbol).starts_with("EXCH_")) // of T_CSY_EXCHANGE
+      continue;
     const char *area = row.area == RegisterArea::Input    ? "I"
                        : row.area == RegisterArea::Output ? "Q"
                                                           : "M";
     text +=
-        std::string(i == 0 ? "" : "\n") + "  /// " + addressOf(found) + ": " + row.meaning + ".\n";
+        std::string(first ? "" : "\n") + "  /// " + addressOf(found) + ": " + row.meaning + ".\n";
     text += std::string("  ") + found.symbol + " AT %" + area + "* : " + typeName(row.type) + ";\n";
+    first = false;
   }
   return text + "END_STRUCT\nEND_TYPE\n";
 }
