@@ -58,7 +58,6 @@ constexpr std::array<Choice, 2> kLinks = {{{"gear", 0}, {"cam", 1}}};
 constexpr std::array<Choice, 5> kStarts = {
     {{"immediate", 0}, {"falling", 1}, {"rising", 2}, {"above", 3}, {"below", 4}}};
 constexpr std::array<Choice, 2> kFirmware = {{{"1.1", 60}, {"1.2", 200}}};
-constexpr std::array<Choice, 2> kStops = {{{"fallback", 0}, {"hold", 1}}};
 
 /// A parameter and what becomes of it.
 enum class Wording : uint8_t { Integer, Real, Flag, Choice };
@@ -125,7 +124,7 @@ constexpr std::array<FieldRow, 6> kModuleFields = {{
     {choice("firmware", kFirmware).defaultsTo(200), "iMostPoints", Wording::Choice},
     {positive("cam_points_per_second", "1/s").defaultsTo(100), "fCamPointsPerSecond",
      Wording::Real},
-    {choice("outputs_on_stop", kStops).defaultsTo(0.0), "bHoldOutputs", Wording::Choice},
+    {flag("present").defaultsTo(1), "bPresent", Wording::Flag},
     {whole("CYCLE_TIME", 0, 32767).defaultsTo(4), "iCycleTime", Wording::Integer},
     {whole("BAUD_RATE", 0, 32767).defaultsTo(4), "iBaudRate", Wording::Integer},
     {real("OPTICAL_POWER", 0, 100).defaultsTo(100), "fOpticalPower", Wording::Real},
@@ -192,13 +191,14 @@ CsyFields fieldsOf(const CheckedSection &section, const std::array<FieldRow, Fie
     std::string value;
     switch (row.wording) {
     case Wording::Integer:
-      value = fmt::format("{}", section.integer(name, 0));
+      value = fmt::format(
+          "{}", section.integer(name, static_cast<int64_t>(row.parameter.otherwise.number)));
       break;
     case Wording::Real:
       value = realLiteral(section.real(name));
       break;
     case Wording::Flag:
-      value = section.boolean(name, false) ? "TRUE" : "FALSE";
+      value = section.boolean(name, row.parameter.otherwise.number != 0) ? "TRUE" : "FALSE";
       break;
     case Wording::Choice:
       value = fmt::format("{}", section.choice(name));

@@ -230,6 +230,11 @@ private:
       groups += fmt::format("{}ADR({})", groups.empty() ? "" : ", ", group->name.text);
     if (!groups.empty())
       groups = fmt::format(", iGroups := {}, apGroup := [{}]", groups_.size(), groups);
+    for (const AxisGroupConfig *group : groups_)
+      if (group->shared != nullptr && group->shared->type == "SercosDrive.SERCOS_RING_SIM") {
+        groups += fmt::format(", pRing := ADR({})", sharedVariable(*group));
+        break;
+      }
     out_.add(fmt::format("{{attribute 'hide'}}\nPROGRAM {}__service\nVAR\n"
                          "  fb0 : CSY.CSY_RING := (iRack := {}, iSlot := {}, pMemory := ADR(%MW0){}{});\n{}END_VAR\n",
                          prefix_, csy.rack, csy.slot, inputs(csy.inputs), groups, instances_),

@@ -205,6 +205,9 @@ const RegisterRow kRegisters[] = {
      "words of the table of a transfer"},
     {"EXCH_TABLE", Memory, Dint, kOwnWord + 3, 0, kCommanded | kTrf | kModule, false,
      "number of its first word, %MW"},
+    {"ACTUAL_PHASE", Memory, Int, kOwnWord + 5, 0, kRing, false, "phase of the ring"},
+    {"COMMANDED_PHASE", Memory, Int, kOwnWord + 6, 0, kRing, false,
+     "phase that the ring shall come to"},
 };
 
 const size_t kRegisterRows = sizeof kRegisters / sizeof kRegisters[0];
