@@ -46,11 +46,6 @@ constexpr std::array<const SectionSchema *, 6> kGroupSections = {
 constexpr SectionSchema kAxesGroup = {"axes_group", "an axes group",  "axes_group",
                                       true,         kGroupParameters, kGroupSections};
 
-ConfigName nameIn(const CheckedSection &section, std::string_view key) {
-  const TomlNode *value = section.get(key);
-  return value != nullptr ? ConfigName{value->text, value->span} : ConfigName{};
-}
-
 std::vector<InputValue> valuesIn(const CheckedSection &section, std::string_view name,
                                  Diagnostics &diagnostics) {
   std::vector<InputValue> values;

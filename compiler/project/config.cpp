@@ -75,6 +75,8 @@ public:
       plc_.readAxesGroup(group);
     for (const CheckedSection &cnc : top.sections("cnc", diagnostics_))
       readCncSection(cnc, config_, diagnostics_);
+    for (const CheckedSection &csy : top.sections("csy", diagnostics_))
+      config_.csy.push_back(readCsy(csy, diagnostics_));
     for (const TomlNode &io : top.tables("io"))
       readIoDevice({io, ioSection(io), diagnostics_, &projectSchema()}, config_, diagnostics_);
     return std::move(config_);

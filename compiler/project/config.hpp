@@ -4,6 +4,7 @@
 
 #include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/codegen/codegen.hpp"
+#include "compiler/project/csy_config.hpp"
 #include "compiler/project/library_config.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/source/diagnostic.hpp"
@@ -167,6 +168,7 @@ struct ProjectConfig {
   std::vector<AxesGroupConfig> axesGroups;
   std::vector<IoConfig> ioDevices;
   std::vector<CncSettings> cnc; ///< [[cnc]]
+  std::vector<CsyConfig> csy;   ///< [[csy]]
   bool incomplete = false;      ///< a drive, axis group or everything had to be left out
 };
 

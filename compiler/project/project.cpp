@@ -2,6 +2,7 @@
 
 #include "compiler/assets/cam/cam_source.hpp"
 #include "compiler/project/axes_group_sources.hpp"
+#include "compiler/project/csy_sources.hpp"
 #include "compiler/project/cnc_config.hpp"
 #include "compiler/project/library_sources.hpp"
 #include "compiler/project/source_files.hpp"
@@ -135,6 +136,8 @@ void Project::readOwnConfig() {
   program_.settings.pack = config_.pack;
   program_.settings.truncIsInt = config_.truncIsInt;
   program_.settings.softMotion3 = config_.generation == 3;
+  for (const CsyConfig &csy : config_.csy)
+    program_.settings.modules.push_back({csy.rack, csy.slot});
 }
 
 /// What the configuration declares goes to the files; false: something of it is missing, which the
@@ -154,8 +157,8 @@ bool Project::addDeclarations(Purpose purpose, ProgramCheck programCheck,
     files.insert(files.begin(), parseSynthetic(plc, options));
     plcFile_ = files.front()->id;
   }
-  if (!declareAxesGroups(files, options, index) || !declareCams(files, options) ||
-      !declareCnc(files, options, index))
+  if (!declareAxesGroups(files, options, index) || !declareCsy(files, options) ||
+      !declareCams(files, options) || !declareCnc(files, options, index))
     return false;
   for (const TaskConfig &task : config_.tasks)
     if (!task.event.text.empty())
@@ -217,6 +220,17 @@ bool Project::declareAxesGroups(std::vector<ast::File *> &files, const ParseOpti
     return false;
   if (!groups.empty())
     files.insert(files.begin(), parseSynthetic(groups, options));
+  return true;
+}
+
+/// Adds the modules of [[csy]] as global variables and programs. False: some are wrong.
+bool Project::declareCsy(std::vector<ast::File *> &files, const ParseOptions &options) {
+  const size_t errors = program_.diagnostics.errorCount();
+  const SyntheticSource modules = csyDeclarations(config_, program_.diagnostics);
+  if (program_.diagnostics.errorCount() != errors)
+    return false;
+  if (!modules.empty())
+    files.insert(files.begin(), parseSynthetic(modules, options));
   return true;
 }
 

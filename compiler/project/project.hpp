@@ -85,6 +85,7 @@ private:
   void loadAssets(const FoundFiles &found, std::vector<FileId> &ids);
   bool declareAxesGroups(std::vector<ast::File *> &files, const ParseOptions &options,
                          const LibraryIndex &index);
+  bool declareCsy(std::vector<ast::File *> &files, const ParseOptions &options);
   bool declareCams(std::vector<ast::File *> &files, const ParseOptions &options);
   bool declareCnc(std::vector<ast::File *> &files, const ParseOptions &options,
                   const LibraryIndex &index);

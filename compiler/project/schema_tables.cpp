@@ -223,9 +223,10 @@ struct TopSection {
                  &anyIoSection(),
                  &kAxis,
                  &axesGroupSchema(),
+                 &csySchema(),
                  &kCnc},
         top{"", "stride.toml", "", false, {}, sections} {}
-  std::array<const SectionSchema *, 13> sections;
+  std::array<const SectionSchema *, 14> sections;
   SectionSchema top;
 };
 

@@ -152,12 +152,19 @@ struct AccessPath {
   const Location *location = nullptr; ///< of a variable in the process image
 };
 
+/// A module whose registers have addresses by rack and slot, `%IW1.4.3.2`.
+struct RegisterModule {
+  uint32_t rack = 0;
+  uint32_t slot = 0;
+};
+
 struct Settings {
   uint64_t poolSize = 65536; ///< bytes for the objects of __NEW, a multiple of 16
   bool checks = true;        ///< run-time checks (index, division, null, subrange)
   Levels levels;             ///< severities given on the command line; they go before stride.toml's
   Addressing addressing = Addressing::Units;
   std::array<uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
+  std::vector<RegisterModule> modules;  ///< TSX CSY 85, by [[csy]]
   unsigned pack = 0;        ///< of the project's structures without pack_mode; 0: natural alignment
   bool softMotion3 = false; ///< defaults that differ by generation are SoftMotion 3's
   bool truncIsInt = false;  ///< TRUNC gives an INT, as in CoDeSys V2.3, instead of a DINT

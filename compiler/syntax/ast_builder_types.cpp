@@ -179,8 +179,13 @@ DirectAddress *AstBuilder::address(const Token &token) {
   }
   std::vector<uint32_t> numbers{0};
   for (const char c : rest) {
-    if (c == '.') {
+    if (c == '.' || c == ':') {
       numbers.push_back(0);
+    } else if (c < '0' || c > '9') { // of MOD, ERR or X
+      if (c == 'm' || c == 'M')
+        numbers.back() = DirectAddress::kModule;
+      else if (c == 'e' || c == 'E')
+        numbers.back() = DirectAddress::kError;
     } else {
       const uint64_t value = uint64_t{numbers.back()} * 10 + static_cast<unsigned>(c - '0');
       if (value > 0xFFFF'FFFF) {

@@ -34,8 +34,11 @@ using NamePath = std::span<Name>;
 
 /// `%IX0.0`, `%QW2`, `%MD4`, `%I*`: where a located variable lies.
 struct DirectAddress {
-  char area = 'M';             ///< I, Q or M
-  char size = 'X';             ///< X (bit), B, W, D or L; a missing letter means X
+  static constexpr uint32_t kModule = 0xFFFF'FFFF; ///< for `MOD` in place of a channel
+  static constexpr uint32_t kError = 0xFFFF'FFFE;  ///< for `ERR` in place of a bit
+
+  char area = 'M';             ///< I, Q or M; C: a channel of a module, `%CH1.4.3`
+  char size = 'X';             ///< X (bit), B, W, D, L or F (REAL); a missing letter means X
   bool incomplete = false;     ///< `%I*`: VAR_CONFIG gives the place
   std::span<uint32_t> numbers; ///< `%IX3.7` gives 3, 7
   std::string_view text;       ///< as written

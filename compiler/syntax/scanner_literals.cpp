@@ -180,7 +180,34 @@ static bool isWholeAddress(std::string_view text) {
   const auto in = [&](size_t i, std::string_view set) {
     return i < text.size() && set.find(lowerCase(text[i])) != std::string_view::npos;
   };
-  return in(1, "iqm") && in(in(2, "xbwdl") ? 3 : 2, "0123456789");
+  return in(1, "iqm") && in(in(2, "xbwdlf") ? 3 : 2, "0123456789");
+}
+
+/// After the numbers of an address. Those of a module's registers may have `MOD` or `ERR` in place
+/// of a number, and a bit of a word as `%MW1.4.3.0:X3`.
+size_t Scanner::afterNumbers(size_t place) const {
+  const auto isWord = [this](size_t from, std::string_view word) {
+    return lowerCase(text_.substr(from, word.size())) == word && !isLetter(at(from + word.size()));
+  };
+  size_t points = 0;
+  for (;;) {
+    if (isDigit(at(place))) {
+      ++place;
+    } else if (at(place) == '.' && isDigit(at(place + 1))) {
+      ++place;
+      ++points;
+    } else if (points > 0 && at(place) == '.' &&
+               (isWord(place + 1, "mod") || isWord(place + 1, "err"))) {
+      place += 4;
+      ++points;
+    } else {
+      break;
+    }
+  }
+  if (points > 1 && at(place) == ':' && lowerCase(at(place + 1)) == 'x' && isDigit(at(place + 2)))
+    for (place += 2; isDigit(at(place));)
+      ++place;
+  return place;
 }
 
 uint16_t Scanner::address(size_t begin, Token &token) {
@@ -195,12 +222,10 @@ uint16_t Scanner::address(size_t begin, Token &token) {
     ++place_;
   const std::string_view area = text_.substr(letters, place_ - letters);
   const size_t numbers = place_;
-  if (at(place_) == '*') {
+  if (at(place_) == '*')
     ++place_;
-  } else {
-    while (isDigit(at(place_)) || (at(place_) == '.' && isDigit(at(place_ + 1))))
-      ++place_;
-  }
+  else
+    place_ = afterNumbers(place_);
   const auto in = [](char c, std::string_view set) {
     return set.find(lowerCase(c)) != std::string_view::npos;
   };
@@ -208,7 +233,8 @@ uint16_t Scanner::address(size_t begin, Token &token) {
   const bool good =
       place_ > numbers &&
       ((partial && area.size() == 1 && in(area[0], "xbwdl")) ||
-       (area.size() <= 2 && in(area[0], "iqm") && (area.size() == 1 || in(area[1], "xbwdl"))));
+       (area.size() <= 2 && in(area[0], "iqm") && (area.size() == 1 || in(area[1], "xbwdlf"))) ||
+       (area.size() == 2 && in(area[0], "c") && in(area[1], "h"))); // a channel of a module
   if (!good) {
     token.reported = true;
     diagnostics_

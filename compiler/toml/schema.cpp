@@ -427,6 +427,11 @@ std::vector<CheckedSection> CheckedSection::sections(std::string_view name,
   return result;
 }
 
+ConfigName nameIn(const CheckedSection &section, std::string_view parameter) {
+  const TomlNode *value = section.get(parameter);
+  return value != nullptr ? ConfigName{value->text, value->span} : ConfigName{};
+}
+
 ConfigName nameOf(const CheckedSection &section) {
   const TomlNode *name = section.get("name");
   return name != nullptr ? ConfigName{name->text, name->span} : ConfigName{};

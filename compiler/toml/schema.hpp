@@ -91,6 +91,8 @@ struct ConfigName {
 
 /// The `name` of a section; with an invalid span when it is missing or wrong.
 [[nodiscard]] ConfigName nameOf(const CheckedSection &section);
+/// The text of a parameter as a name; with an invalid span when it is missing or wrong.
+[[nodiscard]] ConfigName nameIn(const CheckedSection &section, std::string_view parameter);
 
 /// Reports the second use of a name or number, with the first one marked.
 class Unique {

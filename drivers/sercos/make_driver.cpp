@@ -26,6 +26,7 @@ public:
   }
 
   void executeStart() override {
+    network_.lead(ringControl());
     SercosDriver::executeStart();
     network_.publish(master());
     if (host_ != nullptr && !stopped_)

@@ -130,11 +130,25 @@ void SimulatedNetwork::countDown() noexcept {
   }
 }
 
+void SimulatedNetwork::lead(RingControl &ring) const {
+  if (sim_ == nullptr)
+    return;
+  const Phase wanted = std::min(static_cast<Phase>(sim_->byHighestPhase), Phase::Four);
+  if (wanted != ring.commandedPhase())
+    ring.commandPhase(wanted);
+  constexpr uint8_t kBrightest = 100;
+  if (sim_->usiLight <= kBrightest && sim_->usiLight != ring.opticalPower())
+    ring.setOpticalPower(sim_->usiLight);
+}
+
 void SimulatedNetwork::publish(const Master &master) const noexcept {
   if (sim_ == nullptr)
     return;
   sim_->byActualPhase = static_cast<uint8_t>(master.actualPhase());
   sim_->byCommandedPhase = static_cast<uint8_t>(master.commandedPhase());
+  sim_->uiBaudRate = static_cast<uint16_t>(master.baudRate());
+  sim_->usiActualLight = master.opticalPower();
+  sim_->udiCycleTime = master.cycleTime();
   sim_->udiMstLost = static_cast<uint32_t>(master.counters().mstLost);
   sim_->udiAtLost = static_cast<uint32_t>(master.counters().atLost);
   sim_->udiRingFalls = static_cast<uint32_t>(master.counters().ringFalls);

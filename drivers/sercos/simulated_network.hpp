@@ -31,6 +31,8 @@ public:
   /// Where the structures are now; null: there are none.
   void bindDrive(size_t drive, void *data);
   void bindRing(void *data) { sim_ = static_cast<RingSim *>(data); }
+  /// What programs ask of the master.
+  void lead(RingControl &ring) const;
   /// What the master knows, for programs.
   void publish(const Master &master) const noexcept;
 

@@ -62,18 +62,18 @@ void emitTypeIdOf(EmitContext &cx, const Expr *instance) {
   cx.out << '.' << pathToTypeId(typeAs<PouType>(instance->type)->symbol);
 }
 
-/// A place of a derived block as one of its base `type`.
+/// A place of a derived block or structure as one of its base `type`.
 void emitPlaceAs(EmitContext &cx, const Expr *e, const Type *type) {
   emitPlace(cx, e);
-  if (e->type == type || !isInstance(e->type) || !isInstance(type))
+  if (e->type == type)
     return;
   cx.includes.complete(e->type);
-  cx.out << baseSuffix(typeAs<PouType>(e->type)->symbol, typeAs<PouType>(type)->symbol);
+  cx.out << baseSuffix(e->type, type);
 }
 
 /// A pointer to the place as one to its base `type`; null references stay null.
 void emitAddressAs(EmitContext &cx, const Expr *e, const Type *type) {
-  if (e->type == type || !isInstance(e->type) || !isInstance(type)) {
+  if (e->type == type || baseSuffix(e->type, type).empty()) {
     emitAddress(cx, e);
     return;
   }

@@ -147,6 +147,16 @@ std::string baseSuffix(const PouSymbol *from, const PouSymbol *to) {
   return suffix;
 }
 
+std::string baseSuffix(const Type *from, const Type *to) {
+  if (isInstance(from) && isInstance(to))
+    return baseSuffix(typeAs<PouType>(from)->symbol, typeAs<PouType>(to)->symbol);
+  std::string suffix;
+  if (from->kind == TypeKind::Structure && to->kind == TypeKind::Structure)
+    for (const auto *at = typeAs<StructType>(from); at != nullptr && at != to; at = at->base)
+      suffix += ".base__";
+  return suffix;
+}
+
 std::string pathToTypeId(const PouSymbol *block) {
   const PouSymbol *at = block;
   while (!carriesTypeId(at))

@@ -29,6 +29,8 @@ void mangleTo(std::string &out, std::string_view name);
 [[nodiscard]] std::string pathToBase(const PouSymbol *from, const PouSymbol *to);
 /// The same way, after the instance: `.base__.base__`
 [[nodiscard]] std::string baseSuffix(const PouSymbol *from, const PouSymbol *to);
+/// The same of blocks and of structures; empty for other types.
+[[nodiscard]] std::string baseSuffix(const Type *from, const Type *to);
 /// The way to the type id of an instance that has one: `base__.type__`
 [[nodiscard]] std::string pathToTypeId(const PouSymbol *block);
 

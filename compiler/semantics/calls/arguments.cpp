@@ -283,8 +283,20 @@ static void checkArgument(Context &c, Argument &argument, VarSymbol *parameter) 
             "argument `" + std::string(parameter->name.text) + "`");
 }
 
+/// A structure that is `base`, or extends it.
+static bool extendsStructure(const Type *type, const Type *base) {
+  if (type->kind != TypeKind::Structure || base->kind != TypeKind::Structure)
+    return false;
+  const auto *at = typeAs<StructType>(type);
+  if (at->isUnion)
+    return false;
+  while (at != nullptr && at != base)
+    at = at->base;
+  return at != nullptr;
+}
+
 bool refersTo(const Type *type, const Type *wanted) {
-  return type == wanted ||
+  return type == wanted || extendsStructure(type, wanted) ||
          (isInstance(type) && isInstance(wanted) &&
           derivesFrom(typeAs<PouType>(type)->symbol, typeAs<PouType>(wanted)->symbol));
 }

@@ -4,6 +4,7 @@
 
 #include "compiler/semantics/builtins/builtin_calls.hpp"
 #include "compiler/semantics/config/internal.hpp"
+#include "compiler/semantics/config/registers.hpp"
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/fold.hpp"
@@ -147,6 +148,13 @@ const Type *checkDirect(Context &c, DirectExpr *expr) {
               "W0`; or declare a variable `x AT " + std::string(address.text) + " : …`");
     return error;
   }
+  if (isRegister(c, address)) {
+    const auto place = locateRegister(c, address);
+    if (!place)
+      return error;
+    expr->location = c.arena.make<Location>(place->at);
+    return place->type;
+  }
   const auto at = locate(c, address);
   if (!at)
     return error;
@@ -221,6 +229,8 @@ void placeVariable(Context &c, VarSymbol *variable) {
   const Type *type = variable->type;
   if (!mayBePlaced(c, variable) || isError(type))
     return;
+  if (address.area == 'C')
+    return placeAtChannel(c, variable);
   if (holdsAddress(type)) {
     c.report(Code::AddressType, address.span,
              "a variable of type " + typeName(type) + " cannot lie in the process image",
@@ -231,6 +241,8 @@ void placeVariable(Context &c, VarSymbol *variable) {
   }
   const bool isBool = type->kind == TypeKind::Boolean;
   const uint64_t bytes = c.storage.of(type).size;
+  if (!address.incomplete && isRegister(c, address))
+    return placeAtRegister(c, variable);
   // A letter after `%I` is optional before `*`.
   const bool letter = !address.incomplete || (address.text.size() > 2 && address.text[2] != '*');
   if (letter && !locateType(c, variable, bytes, isBool))

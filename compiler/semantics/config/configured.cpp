@@ -3,6 +3,7 @@
 #include "compiler/semantics/config/config.hpp"
 
 #include "compiler/semantics/config/internal.hpp"
+#include "compiler/semantics/config/registers.hpp"
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
@@ -236,6 +237,7 @@ void checkConfigured(Context &c, Module &module) {
         checkConfigEntry(c, decl, module, slots);
     }
   }
+  placeChannelFields(c, slots);
   chooseMissingPlaces(c, slots);
   for (SlotPlace &slot : slots) {
     if (slot.placed)
