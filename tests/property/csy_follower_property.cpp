@@ -2,8 +2,6 @@
 #include "gear_scene.hpp"
 #include "motion_problems.hpp"
 
-#include "runtime/iec/image.h"
-
 #include "st/CSY/CSY_CAM.h"
 #include "st/CSY/CSY_CamPlace.h"
 #include "st/CSY/CSY_FOLLOWER_MASTER.h"
@@ -16,13 +14,6 @@
 #include <algorithm>
 #include <optional>
 #include <vector>
-
-// Where an application has its registers; nothing here uses them.
-namespace st {
-const ::stride::ULINT image__i__at__ = 0;
-const ::stride::ULINT image__q__at__ = 0;
-const ::stride::ULINT image__m__at__ = 0;
-} // namespace st
 
 namespace {
 
