@@ -215,8 +215,12 @@ struct Scene {
     const double at = part();
     ASSERT_GE(at, -1e-12);
     ASSERT_LE(at, 1 + 1e-12);
-    for (size_t i = 0; i < members.size(); ++i)
+    for (size_t i = 0; i < members.size(); ++i) {
       ASSERT_NEAR(place(i), members[i].start + at * members[i].way, 1e-9) << i;
+      if (at == 1.0) { // nothing is left to brake on
+        ASSERT_NEAR(members[i].axis.fSetVelocity / dataOf(i).fScale, 0, 1e-6) << i;
+      }
+    }
   }
 
   void checkLimits(bool isStopping) {
@@ -333,6 +337,42 @@ TEST(CsyCoordinatedProperty, StopsOnTheLineAndGoesOn) {
     }
   }
   EXPECT_GT(halted, 0);
+}
+
+TEST(CsyCoordinatedProperty, HoldsNearTheEndStayBeforeIt) {
+  for (int seed = 0; seed < casesOf(200); ++seed) {
+    SCOPED_TRACE(seed);
+    const auto start = [&](Scene &scene) {
+      scene.dataOf(0).stActive.ACCEL_TYPE = 200;
+      scene.command();
+      scene.step();
+      EXPECT_EQ(scene.error(), 0);
+    };
+    Scene undisturbed(static_cast<uint64_t>(seed));
+    start(undisturbed);
+    int cycles = 1;
+    for (; undisturbed.moves(); ++cycles)
+      undisturbed.step();
+    Scene scene(static_cast<uint64_t>(seed));
+    start(scene);
+    // While it brakes, at its peak or past it.
+    const int hold = static_cast<int>(cycles * Random(static_cast<uint64_t>(seed)).uniform(0.6, 1));
+    int i = 1;
+    for (; i < hold; ++i)
+      scene.step();
+    scene.allow(false);
+    for (; !scene.registers.get(scene.registers.channel.HOLDING) && i < 2 * cycles + 10; ++i) {
+      scene.step();
+      ASSERT_NO_FATAL_FAILURE(scene.checkLine());
+    }
+    ASSERT_TRUE(scene.registers.get(scene.registers.channel.HOLDING));
+    scene.allow(true);
+    for (; scene.moves() && i < 4 * cycles + 100; ++i) {
+      scene.step();
+      ASSERT_NO_FATAL_FAILURE(scene.checkLine());
+    }
+    scene.checkArrival();
+  }
 }
 
 } // namespace

@@ -398,4 +398,37 @@ TEST(CsyFollowerProperty, CamsLoopAndHaveTheirSlope) {
   }
 }
 
+TEST(CsyFollowerProperty, BeginsWhereItArrivesAtTheThresholdNotWhereItLeavesIt) {
+  struct Case {
+    Start start;
+    double period, from, to;
+    bool begins;
+  };
+  constexpr double kTrigger = 30.5;
+  const Case cases[] = {
+      {kRising, 0, 30.25, 30.5, true},    {kRising, 0, 30.5, 30.75, false},
+      {kRising, 0, 30.25, 30.49, false},  {kRising, 0, 30.75, 30.5, false},
+      {kFalling, 0, 30.75, 30.5, true},   {kFalling, 0, 30.5, 30.25, false},
+      {kFalling, 0, 30.75, 30.51, false}, {kFalling, 0, 30.25, 30.5, false},
+      {kRising, 64, 94.25, 94.5, true},   {kRising, 64, 94.5, 94.75, false},
+      {kFalling, 64, 94.75, 94.5, true},  {kFalling, 64, 94.5, 94.25, false},
+      {kRising, 64, -33.75, -33.5, true}, {kFalling, 64, -33.5, -33.75, false},
+      {kAbove, 0, 30.5, 30.25, true},     {kAbove, 0, 30.25, 30.5, true},
+      {kAbove, 0, 30.25, 30.49, false},   {kBelow, 0, 30.5, 30.75, true},
+      {kBelow, 0, 30.75, 30.5, true},     {kBelow, 0, 30.75, 30.51, false},
+  };
+  for (const Case &each : cases) {
+    SCOPED_TRACE(testing::Message() << each.start << " from " << each.from << " to " << each.to);
+    Scene scene(1);
+    scene.slave.bCam = 0;
+    scene.slave.bBiasRemains = 1;
+    scene.slave.iStart = each.start;
+    scene.slave.fTrigger = static_cast<float>(kTrigger);
+    scene.period = scene.master.fPeriod = each.period;
+    scene.course = {each.from, each.to};
+    scene.step(1, true, true);
+    EXPECT_EQ(scene.block.iState, each.begins ? 2 : 1);
+  }
+}
+
 } // namespace
