@@ -49,17 +49,12 @@ struct Table {
 
   [[nodiscard]] double length() const { return x.back() - x.front(); }
 
-  /// Slope of the parabola through point i and its neighbours, by Lagrange's form.
+  /// Slope of the line from the point before point i to the one after it.
   [[nodiscard]] double slope(size_t i) const {
     const size_t last = x.size() - 1;
-    const bool isEnd = i == 0 || i == last;
-    const double before = isEnd ? x[last - 1] - x[last] : x[i - 1] - x[i];
-    const double after = isEnd ? x[1] - x[0] : x[i + 1] - x[i];
-    const double low = isEnd ? y[last - 1] : y[i - 1];
-    const double high = isEnd ? y[1] : y[i + 1];
-    return low * (-after) / (before * (before - after)) +
-           y[i] * (-before - after) / (before * after) +
-           high * (-before) / (after * (after - before));
+    if (i == 0 || i == last) // the table goes on with its other end
+      return (y[1] - y[last - 1]) / (x[1] + length() - x[last - 1]);
+    return (y[i + 1] - y[i - 1]) / (x[i + 1] - x[i - 1]);
   }
 
   [[nodiscard]] double at(double master) const {
