@@ -34,18 +34,17 @@ constexpr std::array<Choice, 17> kPositionUnits = {{{"mrad", 0},
                                                     {"°", 2},
                                                     {"inch", 20}}};
 constexpr std::array<Choice, 26> kSpeedUnits = {
-    {{"mrad/s", 0},     {"rad/s", 1},     {"rad/min", 2},    {"deg/s", 3},
-     {"deg/min", 4},    {"arcmin/s", 5},  {"rev/s", 6},      {"rev/min", 7},
-     {"um/s", 10},      {"mm/s", 11},     {"mm/min", 12},    {"cm/s", 13},
-     {"cm/min", 14},    {"m/s", 15},      {"m/min", 16},     {"in/s", 20},
-     {"in/min", 21},    {"ft/s", 22},     {"ft/min", 23},    {"yd/min", 24},
-     {"mile/s", 25},    {"counts/ms", 30}, {"counts/s", 31}, {"counts/min", 32},
-     {"µm/s", 10},      {"°/s", 3}}};
+    {{"mrad/s", 0},   {"rad/s", 1},      {"rad/min", 2},   {"deg/s", 3},       {"deg/min", 4},
+     {"arcmin/s", 5}, {"rev/s", 6},      {"rev/min", 7},   {"um/s", 10},       {"mm/s", 11},
+     {"mm/min", 12},  {"cm/s", 13},      {"cm/min", 14},   {"m/s", 15},        {"m/min", 16},
+     {"in/s", 20},    {"in/min", 21},    {"ft/s", 22},     {"ft/min", 23},     {"yd/min", 24},
+     {"mile/s", 25},  {"counts/ms", 30}, {"counts/s", 31}, {"counts/min", 32}, {"µm/s", 10},
+     {"°/s", 3}}};
 constexpr std::array<Choice, 20> kAccelUnits = {
-    {{"mrad/s2", 0},  {"rad/s2", 1},  {"deg/s2", 2},   {"arcmin/s2", 3}, {"rev/s2", 4},
-     {"rev/min/s", 5}, {"um/s2", 10}, {"mm/s2", 11},   {"cm/s2", 12},    {"m/s2", 13},
-     {"m/min2", 14},  {"g", 15},      {"in/s2", 20},   {"ft/s2", 21},    {"yd/min2", 22},
-     {"mile/s2", 23}, {"counts/ms2", 30}, {"counts/s2", 31}, {"µm/s2", 10}, {"°/s2", 2}}};
+    {{"mrad/s2", 0},   {"rad/s2", 1},      {"deg/s2", 2},     {"arcmin/s2", 3}, {"rev/s2", 4},
+     {"rev/min/s", 5}, {"um/s2", 10},      {"mm/s2", 11},     {"cm/s2", 12},    {"m/s2", 13},
+     {"m/min2", 14},   {"g", 15},          {"in/s2", 20},     {"ft/s2", 21},    {"yd/min2", 22},
+     {"mile/s2", 23},  {"counts/ms2", 30}, {"counts/s2", 31}, {"µm/s2", 10},    {"°/s2", 2}}};
 constexpr std::array<Choice, 5> kShapes = {{{"rectangle", 100},
                                             {"trapezoid125", 125},
                                             {"trapezoid150", 150},
@@ -152,31 +151,34 @@ constexpr std::array kModuleAxisKeys = {
 };
 constexpr std::array<const SectionSchema *, 1> kModuleAxisSections = {&kModuleAxisParameters};
 constexpr SectionSchema kModuleAxis = {"axis", "an axis of a module", "csy.axis",
-                                 true,   kModuleAxisKeys,             kModuleAxisSections};
+                                       true,   kModuleAxisKeys,       kModuleAxisSections};
 
 constexpr auto kModuleCamKeys =
-    rows(kCamFields, std::array{whole("channel", 25, 31).needed(),
-                                whole("points", 2, kMostCamPoints).needed(),
-                                identifier("master_table"), identifier("slave_table")});
-constexpr SectionSchema kModuleCam = {"cam", "a cam of a module", "csy.cam", true, kModuleCamKeys, {}};
+    rows(kCamFields,
+         std::array{whole("channel", 25, 31).needed(), whole("points", 2, kMostCamPoints).needed(),
+                    identifier("master_table"), identifier("slave_table")});
+constexpr SectionSchema kModuleCam = {"cam", "a cam of a module", "csy.cam",
+                                      true,  kModuleCamKeys,      {}};
 
 constexpr auto kModuleSlaveKeys = rows(kSlaveFields, std::array<Parameter, 0>{});
-constexpr SectionSchema kModuleSlave = {"slave", "a slave", "csy.follower.slave", true, kModuleSlaveKeys, {}};
+constexpr SectionSchema kModuleSlave = {"slave", "a slave",        "csy.follower.slave",
+                                        true,    kModuleSlaveKeys, {}};
 constexpr std::array kModuleFollowerKeys = {whole("channel", 21, 24).needed(),
-                                      whole("master", 1, 16)};
+                                            whole("master", 1, 16)};
 constexpr std::array<const SectionSchema *, 1> kModuleFollowerSections = {&kModuleSlave};
-constexpr SectionSchema kModuleFollower = {"follower", "a follower group", "csy.follower",
-                                     true,       kModuleFollowerKeys,      kModuleFollowerSections};
+constexpr SectionSchema kModuleFollower = {"follower",          "a follower group",
+                                           "csy.follower",      true,
+                                           kModuleFollowerKeys, kModuleFollowerSections};
 
 constexpr std::array kModuleCoordinatedKeys = {whole("channel", 17, 20).needed(),
-                                         Parameter{"axes", ParameterType::NameList, true}};
+                                               Parameter{"axes", ParameterType::NameList, true}};
 constexpr SectionSchema kModuleCoordinated = {
     "coordinated", "a coordinated group", "csy.coordinated", true, kModuleCoordinatedKeys, {}};
 
 constexpr auto kCsyKeys = rows(kModuleFields, std::array{whole("rack", 0, kLastRack).needed(),
                                                          whole("slot", 0, kLastSlot).needed()});
-constexpr std::array<const SectionSchema *, 4> kCsySections = {&kModuleAxis, &kModuleCam, &kModuleFollower,
-                                                               &kModuleCoordinated};
+constexpr std::array<const SectionSchema *, 4> kCsySections = {
+    &kModuleAxis, &kModuleCam, &kModuleFollower, &kModuleCoordinated};
 constexpr SectionSchema kCsy = {"csy", "a module", "csy", true, kCsyKeys, kCsySections};
 
 /// What a section says of the rows, with the rows' defaults where it says nothing.

@@ -139,16 +139,15 @@ private:
   void serve(uint32_t channel, std::string_view block, std::string_view type,
              const std::string &settings, std::string_view arguments) {
     declareChannel(fmt::format("{}", channel), type);
-    instances_ += fmt::format("  fb{0} : CSY.{1} := (iChannel := {0}{2});\n", channel, block,
-                              settings);
-    calls_ += fmt::format("fb{0}(Module := {1}, Channel := {1}_{0}{2});\n", channel, prefix_,
-                          arguments);
+    instances_ +=
+        fmt::format("  fb{0} : CSY.{1} := (iChannel := {0}{2});\n", channel, block, settings);
+    calls_ +=
+        fmt::format("fb{0}(Module := {1}, Channel := {1}_{0}{2});\n", channel, prefix_, arguments);
   }
 
   void addAxis(const CsyAxisConfig &axis) {
     const std::string parameters =
-        axis.parameters.empty() ? std::string()
-                                : ", stConfigured := " + structure(axis.parameters);
+        axis.parameters.empty() ? std::string() : ", stConfigured := " + structure(axis.parameters);
     if (axis.channel >= kFirstRemote) {
       std::string encoder;
       if (axis.encoder.span.valid()) {
@@ -170,9 +169,8 @@ private:
       return;
     join(*found, axis.axis);
     serve(axis.channel, "CSY_AXIS", "T_CSY_IND",
-          fmt::format(", bImaginary := {}{}{}",
-                      axis.channel >= kFirstImaginary ? "TRUE" : "FALSE", parameters,
-                      inputs(axis.inputs)),
+          fmt::format(", bImaginary := {}{}{}", axis.channel >= kFirstImaginary ? "TRUE" : "FALSE",
+                      parameters, inputs(axis.inputs)),
           fmt::format(", Axis := {}", found->name));
   }
 
@@ -236,12 +234,14 @@ private:
         break;
       }
     out_.add(fmt::format("{{attribute 'hide'}}\nPROGRAM {}__service\nVAR\n"
-                         "  fb0 : CSY.CSY_RING := (iRack := {}, iSlot := {}, pMemory := ADR(%MW0){}{});\n{}END_VAR\n",
+                         "  fb0 : CSY.CSY_RING := (iRack := {}, iSlot := {}, pMemory := "
+                         "ADR(%MW0){}{});\n{}END_VAR\n",
                          prefix_, csy.rack, csy.slot, inputs(csy.inputs), groups, instances_),
              csy.span);
-    out_.add(fmt::format("fb0(Module := {0}, Channel := {0}_0, General := {0}_MOD);\n{1}END_PROGRAM\n",
-                         prefix_, calls_),
-             csy.span);
+    out_.add(
+        fmt::format("fb0(Module := {0}, Channel := {0}_0, General := {0}_MOD);\n{1}END_PROGRAM\n",
+                    prefix_, calls_),
+        csy.span);
   }
 
   ProjectConfig &config_;

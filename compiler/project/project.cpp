@@ -2,8 +2,8 @@
 
 #include "compiler/assets/cam/cam_source.hpp"
 #include "compiler/project/axes_group_sources.hpp"
-#include "compiler/project/csy_sources.hpp"
 #include "compiler/project/cnc_config.hpp"
+#include "compiler/project/csy_sources.hpp"
 #include "compiler/project/library_sources.hpp"
 #include "compiler/project/source_files.hpp"
 #include "compiler/source/read_source.hpp"

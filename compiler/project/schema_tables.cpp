@@ -211,20 +211,11 @@ struct DiagnosticSection {
 struct TopSection {
   DiagnosticSection diagnostics;
   explicit TopSection(const SectionSchema &library)
-      : sections{&kProject,
-                 &library,
-                 &diagnostics.section,
-                 &kImage,
-                 &kRetain,
-                 &kFiles,
-                 &kFormat,
-                 &kTask,
-                 &anyBusSection(),
-                 &anyIoSection(),
-                 &kAxis,
-                 &axesGroupSchema(),
-                 &csySchema(),
-                 &kCnc},
+      : sections{&kProject,       &library, &diagnostics.section,
+                 &kImage,         &kRetain, &kFiles,
+                 &kFormat,        &kTask,   &anyBusSection(),
+                 &anyIoSection(), &kAxis,   &axesGroupSchema(),
+                 &csySchema(),    &kCnc},
         top{"", "stride.toml", "", false, {}, sections} {}
   std::array<const SectionSchema *, 14> sections;
   SectionSchema top;

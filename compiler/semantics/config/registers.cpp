@@ -82,8 +82,8 @@ Location locationOf(const Channel &channel, csy::RegisterArea area, csy::ImagePl
   at.area = area == csy::RegisterArea::Input    ? Area::Input
             : area == csy::RegisterArea::Output ? Area::Output
                                                 : Area::Memory;
-  at.byte = csy::startOfModule(area, channel.module) +
-            channel.number * csy::bytesOfChannel(area) + place.byte;
+  at.byte = csy::startOfModule(area, channel.module) + channel.number * csy::bytesOfChannel(area) +
+            place.byte;
   at.bit = place.bit;
   return at;
 }
@@ -145,9 +145,9 @@ bool isRegister(const Context &c, const DirectAddress &address) {
 }
 
 static Diagnostic &reportNoModule(Context &c, const DirectAddress &address) {
-  auto &d = refuse(c, address,
-                   "no module of this project is at `" + std::string(address.text) + "`",
-                   "rack and slot of a module are needed here");
+  auto &d =
+      refuse(c, address, "no module of this project is at `" + std::string(address.text) + "`",
+             "rack and slot of a module are needed here");
   d.note(c.program.settings.modules.empty()
              ? "stride.toml has no [[csy]]"
              : "addresses of a module are written `%IW1.4.3.2`: rack, slot, channel, register");

@@ -1,5 +1,5 @@
 // The table of registers against the rows of the manual; the types of stdlib/CSY against the table.
-// STRIDE_BLESS=1 writes those types anew.
+// STRIDE_BLESS=1 writes those types, and the list in docs/csy.md, anew.
 #include "runtime/numeric/csy/register_map.hpp"
 
 #include <cstdlib>
@@ -157,6 +157,48 @@ TEST(CsyRegisters, MakeTheTypesOfTheLibrary) {
     file << std::ifstream(path).rdbuf();
     EXPECT_EQ(file.str(), text) << path;
   }
+}
+
+/// `NAME_1` to `NAME_6` at their addresses, as one row.
+std::string documentation() {
+  std::string text = "| register | address | type | | of | meaning |\n|---|---|---|---|---|---|\n";
+  for (size_t i = 0; i < kRegisterRows; ++i) {
+    const RegisterRow &row = kRegisters[i];
+    Register first{&row, "", row.word};
+    std::string name = row.symbol;
+    std::string address = addressOf(first);
+    if (row.repeats > 1) {
+      Register last = first;
+      last.word = static_cast<uint8_t>(row.word + (row.repeats - 1) * row.step);
+      name +=
+          "_" + std::to_string(row.first) + " … _" + std::to_string(row.first + row.repeats - 1);
+      address += " … " + addressOf(last);
+    }
+    std::string kinds;
+    for (const uint8_t kind : kKinds)
+      if ((row.kinds & kind) != 0)
+        kinds += (kinds.empty() ? "" : ", ") + std::string(nameOfKind(kind));
+    text += "| `" + name + "` | " + address + " | " + typeName(row.type) + " | " +
+            (row.writable ? "rw" : "r") + " | " + kinds + " | " + row.meaning + " |\n";
+  }
+  return text;
+}
+
+TEST(CsyRegisters, AreListedInTheDocumentation) {
+  const std::string path = STRIDE_SOURCE_DIR "/docs/csy.md";
+  std::ostringstream file;
+  file << std::ifstream(path).rdbuf();
+  const std::string text = file.str();
+  const std::string begin = "<!-- registers: begin -->\n";
+  const size_t from = text.find(begin) + begin.size();
+  const size_t to = text.find("<!-- registers: end -->");
+  ASSERT_LT(from, to + 1);
+  const std::string wanted = documentation();
+  if (std::getenv("STRIDE_BLESS") != nullptr) { // NOLINT(concurrency-mt-unsafe)
+    std::ofstream(path) << text.substr(0, from) << wanted << text.substr(to);
+    return;
+  }
+  EXPECT_EQ(text.substr(from, to - from), wanted);
 }
 
 } // namespace
