@@ -95,9 +95,10 @@ constexpr std::array<FieldRow, 20> kAxisFields = {{
     {flag("modulo"), "2", Wording::Flag},
 }};
 
-constexpr std::array<FieldRow, 6> kCamFields = {{
+constexpr std::array<FieldRow, 7> kCamFields = {{
     {choice("interpolation", kInterpolations).defaultsTo(0.0), "iInterpolation", Wording::Choice},
     {unit("unit", kPositionUnits), "iUnit", Wording::Choice},
+    {choice("slave_unit", kPositionUnits), "iSlaveUnit", Wording::Choice},
     {anyReal("master_start", "unit").defaultsTo(0.0), "fMasterStart", Wording::Real},
     {positive("master_increment", "unit").defaultsTo(1), "fMasterIncrement", Wording::Real},
     {anyReal("slave_start", "unit").defaultsTo(0.0), "fSlaveStart", Wording::Real},
@@ -292,6 +293,10 @@ private:
     cam.masterTable = nameIn(section, "master_table");
     cam.slaveTable = nameIn(section, "slave_table");
     cam.inputs = fieldsOf(section, kCamFields);
+    if (!section.has("slave_unit"))
+      for (auto &[member, value] : cam.inputs)
+        if (member == "iSlaveUnit")
+          value = fmt::format("{}", section.choice("unit"));
     const auto instead = [&](std::string_view table, std::string_view start,
                              std::string_view step) {
       if (!section.has(table))

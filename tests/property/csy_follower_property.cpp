@@ -2,8 +2,6 @@
 #include "gear_scene.hpp"
 #include "motion_problems.hpp"
 
-#include "runtime/iec/image.h"
-
 #include "st/CSY/CSY_CAM.h"
 #include "st/CSY/CSY_CamPlace.h"
 #include "st/CSY/CSY_FOLLOWER_MASTER.h"
@@ -16,13 +14,6 @@
 #include <algorithm>
 #include <optional>
 #include <vector>
-
-// Where an application has its registers; nothing here uses them.
-namespace st {
-const ::stride::ULINT image__i__at__ = 0;
-const ::stride::ULINT image__q__at__ = 0;
-const ::stride::ULINT image__m__at__ = 0;
-} // namespace st
 
 namespace {
 
@@ -58,17 +49,12 @@ struct Table {
 
   [[nodiscard]] double length() const { return x.back() - x.front(); }
 
-  /// Slope of the parabola through point i and its neighbours, by Lagrange's form.
+  /// Slope of the line from the point before point i to the one after it.
   [[nodiscard]] double slope(size_t i) const {
     const size_t last = x.size() - 1;
-    const bool isEnd = i == 0 || i == last;
-    const double before = isEnd ? x[last - 1] - x[last] : x[i - 1] - x[i];
-    const double after = isEnd ? x[1] - x[0] : x[i + 1] - x[i];
-    const double low = isEnd ? y[last - 1] : y[i - 1];
-    const double high = isEnd ? y[1] : y[i + 1];
-    return low * (-after) / (before * (before - after)) +
-           y[i] * (-before - after) / (before * after) +
-           high * (-before) / (after * (after - before));
+    if (i == 0 || i == last) // the table goes on with its other end
+      return (y[1] - y[last - 1]) / (x[1] + length() - x[last - 1]);
+    return (y[i + 1] - y[i - 1]) / (x[i + 1] - x[i - 1]);
   }
 
   [[nodiscard]] double at(double master) const {
@@ -404,6 +390,39 @@ TEST(CsyFollowerProperty, CamsLoopAndHaveTheirSlope) {
         ASSERT_NEAR(slope, (ahead - behind) / (2 * kStep), 1e-2 * (1 + std::fabs(slope)));
       }
     }
+  }
+}
+
+TEST(CsyFollowerProperty, BeginsWhereItArrivesAtTheThresholdNotWhereItLeavesIt) {
+  struct Case {
+    Start start;
+    double period, from, to;
+    bool begins;
+  };
+  constexpr double kTrigger = 30.5;
+  const Case cases[] = {
+      {kRising, 0, 30.25, 30.5, true},    {kRising, 0, 30.5, 30.75, false},
+      {kRising, 0, 30.25, 30.49, false},  {kRising, 0, 30.75, 30.5, false},
+      {kFalling, 0, 30.75, 30.5, true},   {kFalling, 0, 30.5, 30.25, false},
+      {kFalling, 0, 30.75, 30.51, false}, {kFalling, 0, 30.25, 30.5, false},
+      {kRising, 64, 94.25, 94.5, true},   {kRising, 64, 94.5, 94.75, false},
+      {kFalling, 64, 94.75, 94.5, true},  {kFalling, 64, 94.5, 94.25, false},
+      {kRising, 64, -33.75, -33.5, true}, {kFalling, 64, -33.5, -33.75, false},
+      {kAbove, 0, 30.5, 30.25, true},     {kAbove, 0, 30.25, 30.5, true},
+      {kAbove, 0, 30.25, 30.49, false},   {kBelow, 0, 30.5, 30.75, true},
+      {kBelow, 0, 30.75, 30.5, true},     {kBelow, 0, 30.75, 30.51, false},
+  };
+  for (const Case &each : cases) {
+    SCOPED_TRACE(testing::Message() << each.start << " from " << each.from << " to " << each.to);
+    Scene scene(1);
+    scene.slave.bCam = 0;
+    scene.slave.bBiasRemains = 1;
+    scene.slave.iStart = each.start;
+    scene.slave.fTrigger = static_cast<float>(kTrigger);
+    scene.period = scene.master.fPeriod = each.period;
+    scene.course = {each.from, each.to};
+    scene.step(1, true, true);
+    EXPECT_EQ(scene.block.iState, each.begins ? 2 : 1);
   }
 }
 
