@@ -68,6 +68,8 @@ private:
     const size_t joints = checkKinematics(group);
     checkNumber(group, joints);
     TaskConfig *const planner = planningTask(group, task);
+    if (planner != nullptr && program_.diagnostics.errorCount() == errors)
+      checkPlanned(group);
     if (program_.diagnostics.errorCount() != errors || task.empty())
       return;
     declare(group, planner != nullptr);
@@ -138,6 +140,17 @@ private:
       d.help(fmt::format("did you mean `{}`?", near));
     d.note(fmt::format("tasks: {}", fmt::join(known, ", ")));
     return nullptr;
+  }
+
+  /// What a planning task cannot plan with.
+  void checkPlanned(const AxesGroupConfig &group) {
+    for (const ConfigName *name : {&group.kinematics, &group.orientation})
+      if (!name->text.empty() && KinematicBlocks::isOwn(*name))
+        report(Code::PlannedKinematics, group.planningTask.span,
+               fmt::format("`{}` cannot be planned in another task", group.name.text),
+               fmt::format("task `{}` would call `{}`", group.planningTask.text, name->text))
+            .label(name->span, "the program's own, which the task of the axes calls, too")
+            .help("take a kinematics of the library, or leave `planning_task` out");
   }
 
   void reportUnknownAxis(const ConfigName &name) {

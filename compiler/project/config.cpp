@@ -65,6 +65,7 @@ public:
       config_.filesAnywhere = files.boolean("anywhere", false);
       config_.filesDelay = static_cast<uint32_t>(files.integer("delay", 1));
     }
+    groups_ = top.table().find("axes_group");
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);
     for (const TomlNode &bus : top.tables("bus"))
@@ -164,7 +165,7 @@ private:
         static_cast<TaskStart>(section.choice("kind", static_cast<int64_t>(TaskStart::Cyclic)));
     if (!adds || !task.own.text.empty()) {
       if (!section.has("programs"))
-        missing(section, "programs", "a list of names, such as [\"PLC_PRG\"]");
+        reportIdle(task);
       if (task.own.text.empty())
         task.own.text = "programs"; // which is missing
       readStart(section, task);
@@ -193,21 +194,32 @@ private:
       if (const TomlNode *event = section.get("event"))
         task.event = {event->text, event->span};
       else if (!section.has("event"))
-        missing(section, "event", "the BOOL that starts it, for example \"GVL.bStart\"");
+        missing(section.table().span, "event",
+                "the BOOL that starts it, for example \"GVL.bStart\"");
     } else if (section.has("event")) {
       withoutEffect(diagnostics_, section, "event", "only with kind = \"event\" or \"status\"");
     }
     if (task.start == TaskStart::Cyclic && !section.has("interval"))
-      missing(section, "interval", "a duration such as \"T#10ms\"");
+      missing(section.table().span, "interval", "a duration such as \"T#10ms\"");
     if (task.intervalNs == 0 &&
         (task.start == TaskStart::Freewheeling || task.start == TaskStart::Status))
       task.intervalNs = kOwnPace;
   }
 
-  void missing(const CheckedSection &section, std::string_view name, std::string_view what) {
+  /// A task without programs has to plan for a group at least.
+  void reportIdle(const TaskConfig &task) {
+    if (groups_ != nullptr)
+      for (const TomlNode &group : groups_->children)
+        if (const TomlNode *planner = group.find("planning_task");
+            planner != nullptr && equalIgnoringCase(planner->text, task.name.text))
+          return;
+    missing(task.section, "programs", "a list of names, such as [\"PLC_PRG\"]");
+  }
+
+  void missing(Span section, std::string_view name, std::string_view what) {
     diagnostics_
-        .report(Code::ConfigMissingKey, section.table().span,
-                fmt::format("a task needs `{}`", name), fmt::format("`{}` is missing", name))
+        .report(Code::ConfigMissingKey, section, fmt::format("a task needs `{}`", name),
+                fmt::format("`{}` is missing", name))
         .help(fmt::format("add `{} = …`: {}", name, what));
   }
 
@@ -215,6 +227,7 @@ private:
   Diagnostics &diagnostics_;
   ProjectConfig config_;
   PlcReader plc_{config_, diagnostics_};
+  const TomlNode *groups_ = nullptr; ///< [[axes_group]]; null: there are none.
   Unique taskNames_{Code::ConfigDuplicateName, diagnostics_};
 };
 

@@ -138,6 +138,8 @@ size_t KinematicBlocks::check(const ConfigName &name, std::string_view interface
   return axesOf(lowerCase(name.text));
 }
 
+bool KinematicBlocks::isOwn(const ConfigName &name) { return axesOf(lowerCase(name.text)) == 0; }
+
 bool KinematicBlocks::turnsOnly(std::string_view interfaceName, std::string_view name) {
   return interfaceName == kAnyKinematics && axesOf(lowerCase(name)) > 0 &&
          implements(blockOf(name), kTurningKinematics);

@@ -29,6 +29,9 @@ public:
   size_t check(const ConfigName &name, std::string_view interfaceName, std::string_view what,
                const std::vector<InputValue> &values);
 
+  /// Whether a block is none of the library's, if it is a kinematics at all.
+  static bool isOwn(const ConfigName &name);
+
   /// Adds the initial value of an instance, with the semicolon after it; what `check` has found
   /// nothing wrong with.
   void addValues(const std::vector<InputValue> &values, const ConfigName &blockName,

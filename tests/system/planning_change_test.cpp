@@ -163,13 +163,17 @@ protected:
     ASSERT_EQ(built.exitCode, 0) << built.err;
   }
 
-  /// Likewise, with a kinematics of the program's own.
+  /// Likewise, and the program sets a kinematics of its own.
   void buildOwnAs(const std::string &name, bool aside) {
     std::string project = kProject;
-    const std::string block = "Kin_Gantry2";
-    project.replace(project.find(block), block.size(), "OwnPortal");
+    const std::string block = "kinematics = \"Kin_Gantry2\"\n";
+    project.erase(project.find(block), block.size());
+    std::string text = kMain;
+    text.insert(text.find("VAR\n") + 4, "  Own : OwnPortal;\n  SetKin : MC_SetKinTransform;\n");
+    text.insert(text.find("Power(AxisGroup"),
+                "SetKin(AxisGroup := Portal, KinTransform := Own, Execute := TRUE);\n");
     write("own/stride.toml", project + (aside ? "planning_task = \"Slow\"\n" : ""));
-    write("own/Main.st", std::string(kOwn) + kMain);
+    write("own/Main.st", kOwn + text);
     const ProcessResult built = stride({"build", "own", "-o", name + ".so", "-W", "off=lints"});
     ASSERT_EQ(built.exitCode, 0) << built.err;
   }
@@ -287,8 +291,8 @@ TEST_F(PlanningChange, OwnKinematicsStayInTheTaskOfTheAxes) {
       simulate("own", "--out with.csv --change T#701ms,aside.so && cmp without.csv with.csv");
   EXPECT_EQ(with.exitCode, 0) << with.out;
   EXPECT_THAT(with.err, IsEmpty());
-  EXPECT_EQ(simulate("aside", "--out x.csv --print Main.Enable.ErrorID").out,
-            "Main.Order = ''\nMain.Enable.ErrorID = SMC_AXIS_GROUP_NOT_WITH_PLANNING_TASK\n");
+  EXPECT_EQ(simulate("aside", "--out x.csv --print Main.SetKin.ErrorID").out,
+            "Main.Order = ''\nMain.SetKin.ErrorID = SMC_AXIS_GROUP_NOT_WITH_PLANNING_TASK\n");
 }
 
 // With threads: the axes' task and the one that plans run when the change comes.

@@ -1,6 +1,6 @@
 // A group whose axes' task and whose planning task are threads that run as fast as they can, under
-// ThreadSanitizer: portals drive lines, are stopped at once and otherwise, and begin again. Prints
-// how many movements have been done, and how many answers taken.
+// ThreadSanitizer: portals drive lines, are stopped at once, go on with other overrides, and begin
+// again. Prints how many movements have been done, and how many answers taken.
 #include "runtime/numeric/group/planning.hpp"
 #include "runtime/numeric/kinematics/portals.hpp"
 
@@ -64,6 +64,8 @@ int main() {
     GroupCommand now{kCycle, 1.0, false, 0.0, 64, 24};
     now.stop = group->alone || (movements % 4 == 1 && n % 50 == 49);
     now.atOnce = now.stop;
+    if (movements % 4 == 2) // which the axes' task plans, too
+      now.override = n / 150 % 2 == 0 ? 0.6 : 0.9;
     taken += follow(*group, *planning, arm, now) ? 1 : 0;
     goOn(*group, *planning, arm, now);
     (void)post(*group, *planning, arm, portal, now);
