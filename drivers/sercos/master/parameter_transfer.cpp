@@ -83,21 +83,21 @@ void ParameterTransfer::start(const ParameterRequest &request) {
 /// The pieces of a list that has been read, or will be written, need no transfer.
 void ParameterTransfer::startPiece() {
   const size_t from = place_.piece >= 2 ? (place_.piece - 2) * 4 : 0;
-  if (from + 4 > ServiceChannel::kMost) {
+  if (from + 4 > kMostInPieces) {
     answer(Result::Refused);
   } else if (request_.kind == ParameterRequest::Kind::Read) {
     if (place_.piece >= 2 && read_.isOf(place_))
       answerPiece();
   } else if (place_.piece >= 2) {
     if (!write_.isOf(place_))
-      write_ = {};
+      write_.clear();
     write_.idn = place_.idn;
     write_.element = place_.element;
     for (size_t i = 0; i < 4; ++i)
       write_.bytes[from + i] = static_cast<uint8_t>(request_.raw >> 8 * i);
     answer(Result::Done);
   } else {
-    write_.size = std::min<size_t>(request_.raw, ServiceChannel::kMost);
+    write_.size = std::min<size_t>(request_.raw, kMostInPieces);
     if (write_.size != request_.raw || (write_.size != 0 && !write_.isOf(place_)))
       answer(Result::Refused);
   }
@@ -219,6 +219,10 @@ void ParameterTransfer::read(const ServiceChannel &channel) {
     return;
   }
   if (place_.piece != 0) {
+    if (bytes.size() > kMostInPieces) {
+      answer(Result::Failed);
+      return;
+    }
     std::copy(bytes.begin(), bytes.end(), read_.bytes.begin());
     read_.size = bytes.size();
     read_.idn = place_.idn;

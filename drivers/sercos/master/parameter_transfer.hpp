@@ -7,10 +7,12 @@
 #include "drivers/sercos/plan/cyclic_plan.hpp"
 #include "runtime/bus/axis_driver.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace stride::sercos {
 
@@ -29,7 +31,11 @@ std::optional<ParameterPlace> placeOfParameter(int32_t number);
 class ParameterTransfer {
 public:
   /// `told`: what the drive is told in each cycle.
-  explicit ParameterTransfer(const CyclicRecord &told) : told_(told) {}
+  explicit ParameterTransfer(const CyclicRecord &told)
+      : told_(told), bytes_(ServiceChannel::kMost) {}
+
+  /// Most bytes of a list in pieces of four: their places have 12 bits.
+  static constexpr size_t kMostInPieces = 4 * 4094;
 
   void start(const bus::ParameterRequest &request);
   /// Answers at once, with what travels in each cycle.
@@ -67,11 +73,18 @@ private:
 
   /// A list, in pieces.
   struct Pieces {
-    std::array<uint8_t, ServiceChannel::kMost> bytes{};
+    std::vector<uint8_t> bytes = std::vector<uint8_t>(kMostInPieces);
     size_t size = 0;
     Idn idn = 0;
     Element element = Element::None; ///< None: nothing is in it.
 
+    /// Without memory of its own: for the cyclic path.
+    void clear() {
+      std::fill(bytes.begin(), bytes.end(), uint8_t{0});
+      size = 0;
+      idn = 0;
+      element = Element::None;
+    }
     [[nodiscard]] bool isOf(const ParameterPlace &place) const {
       return element == place.element && idn == place.idn;
     }
@@ -91,7 +104,7 @@ private:
   [[nodiscard]] bool isTold(Idn idn, const Attribute &attribute) const;
 
   CyclicRecord told_;
-  std::array<uint8_t, ServiceChannel::kMost> bytes_{};
+  std::vector<uint8_t> bytes_;
   Pieces read_;
   Pieces write_;
   std::array<Idn, kMostListed> listed_{};

@@ -15,7 +15,17 @@ uint16_t stepBits(Element element, bool writes, bool end) {
 
 } // namespace
 
-void ServiceChannel::clear() { *this = ServiceChannel(timeout_); }
+void ServiceChannel::clear() {
+  size_ = place_ = 0;
+  attribute_ = {};
+  attributeBits_ = waited_ = 0;
+  control_ = info_ = error_ = 0;
+  idn_ = 0;
+  element_ = Element::None;
+  step_ = Step::None;
+  state_ = State::Idle;
+  writes_ = open_ = known_ = timedOut_ = draining_ = false;
+}
 
 void ServiceChannel::begin(Idn idn, Element element, bool writes) {
   if (!open_ || idn != idn_)

@@ -7,10 +7,10 @@
 #include "drivers/sercos/protocol/service_error.hpp"
 #include "drivers/sercos/protocol/words.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace stride::sercos {
 
@@ -20,13 +20,14 @@ class ServiceChannel {
 public:
   enum class State : uint8_t { Idle, Busy, Done, Failed };
 
-  /// Most bytes of a list, or of a text.
-  static constexpr size_t kMost = 1024;
+  /// Most bytes of a list, or of a text: its length is a word, and with the two lengths before it
+  /// is 65536 bytes long. [IEC 61491, as manuals of drives tell it]
+  static constexpr size_t kMost = 65532;
 
   /// `timeout`: telegrams of the drive without the end of a step.
-  explicit ServiceChannel(uint32_t timeout) : timeout_(timeout) {}
+  explicit ServiceChannel(uint32_t timeout) : bytes_(kMost + 1), timeout_(timeout) {}
 
-  /// The drive begins anew, with its handshake bit at 0.
+  /// The drive begins anew, with its handshake bit at 0. Nothing is allocated.
   void clear();
 
   /// Begins to read an element; false: another transfer is under way.
@@ -86,9 +87,9 @@ private:
   }
   [[nodiscard]] uint16_t wordAt(size_t place) const;
 
-  std::array<uint8_t, kMost + 1> bytes_{};
-  size_t size_ = 0;  ///< Bytes of the element.
-  size_t place_ = 0; ///< The next one of them.
+  std::vector<uint8_t> bytes_; ///< kMost, and one that fills up the last word of an odd list.
+  size_t size_ = 0;            ///< Bytes of the element.
+  size_t place_ = 0;           ///< The next one of them.
   Attribute attribute_;
   uint32_t attributeBits_ = 0;
   uint32_t timeout_;

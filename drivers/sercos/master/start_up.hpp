@@ -74,7 +74,7 @@ private:
   std::array<std::vector<StartStep>, kLists> phases_;
   const std::vector<IdnValue> file_;
   std::vector<bool> fileWritten_;
-  std::array<uint8_t, ServiceChannel::kMost> bytes_{};
+  std::vector<uint8_t> bytes_ = std::vector<uint8_t>(ServiceChannel::kMost);
   IdnValue scratch_; ///< With one number.
   DriveTiming timing_;
   DriveTiming usual_;

@@ -1,3 +1,4 @@
+#include "drivers/sercos/master/parameter_transfer.hpp"
 #include "drivers/sercos/master/service_channel.hpp"
 
 #include "tests/unit/sercos_master/scripted_ring.hpp"
@@ -84,6 +85,104 @@ TEST_F(ServiceChannelTest, Writes) {
   channel.write(16, {});
   run();
   EXPECT_TRUE(drive.blocks[16].data.empty());
+}
+
+/// Bytes that tell whether one of them is at another place.
+Bytes pattern(size_t count) {
+  Bytes bytes(count);
+  for (size_t i = 0; i < count; ++i)
+    bytes[i] = static_cast<uint8_t>(i * 7 + i / 251);
+  return bytes;
+}
+
+TEST_F(ServiceChannelTest, ListsAreAsLongAsTheirLengthWordsCanSay) {
+  for (const size_t size : {1024U, 1025U, 1026U, 16384U, 65530U, 65531U, 65532U}) {
+    const Bytes bytes = pattern(size);
+    ASSERT_TRUE(channel.write(95, bytes)) << size;
+    ASSERT_GT(run(40000), 0) << size;
+    ASSERT_EQ(channel.state(), ServiceChannel::State::Done) << size;
+    EXPECT_EQ(drive.blocks[95].data, bytes) << size;
+    channel.release();
+    ASSERT_TRUE(channel.read(95, Element::Data));
+    // Its attribute is known: two lengths, and a word for two bytes.
+    EXPECT_EQ(run(40000), static_cast<int>(2 + (size + 1) / 2));
+    EXPECT_EQ(got(), bytes) << size;
+    channel.release();
+  }
+  EXPECT_FALSE(channel.write(95, pattern(65533)));
+  EXPECT_FALSE(channel.write(95, pattern(65536)));
+}
+
+TEST_F(ServiceChannelTest, AListThatSaysMoreThanThereCanBe) {
+  drive.blocks[95].data = pattern(65534);
+  ASSERT_TRUE(channel.read(95, Element::Data));
+  EXPECT_EQ(run(), 3 + 2);
+  EXPECT_EQ(channel.state(), ServiceChannel::State::Failed);
+  EXPECT_EQ(channel.error(), 0);
+  EXPECT_FALSE(channel.timedOut());
+  drive.blocks[95].data = pattern(5); // and the next one is none the worse for it
+  ASSERT_TRUE(channel.read(95, Element::Data));
+  EXPECT_GT(run(), 0);
+  EXPECT_EQ(got(), pattern(5));
+}
+
+/// A list by questions for four bytes each, as the blocks of SercosDrive ask them.
+class ListInPieces : public ServiceChannelTest {
+protected:
+  bus::ParameterAnswer ask(bus::ParameterRequest::Kind kind, size_t piece, uint32_t raw = 0) {
+    bus::ParameterRequest request;
+    request.kind = kind;
+    request.form = bus::ParameterForm::Raw;
+    request.number = static_cast<int32_t>(95U | static_cast<uint32_t>(piece) << 19U);
+    request.raw = raw;
+    transfer.start(request);
+    bus::ParameterAnswer answer;
+    for (int i = 0; i < 5 && !transfer.poll(answer); ++i) {
+      if (transfer.wants())
+        transfer.begin(channel);
+      EXPECT_GT(run(40000), 0);
+      transfer.finished(channel);
+      if (channel.state() != ServiceChannel::State::Busy)
+        channel.release();
+    }
+    return answer;
+  }
+  bus::ParameterAnswer::Result write(const Bytes &bytes) {
+    for (size_t at = 0; at < bytes.size(); at += 4) {
+      uint32_t word = 0;
+      for (size_t i = 0; i < 4 && at + i < bytes.size(); ++i)
+        word |= uint32_t{bytes[at + i]} << 8 * i;
+      if (const auto result = ask(bus::ParameterRequest::Kind::Write, 2 + at / 4, word).result;
+          result != bus::ParameterAnswer::Result::Done)
+        return result;
+    }
+    return ask(bus::ParameterRequest::Kind::Write, 1, static_cast<uint32_t>(bytes.size())).result;
+  }
+  Bytes read() {
+    Bytes bytes(ask(bus::ParameterRequest::Kind::Read, 1).raw);
+    for (size_t at = 0; at < bytes.size(); at += 4) {
+      const uint32_t word = ask(bus::ParameterRequest::Kind::Read, 2 + at / 4).raw;
+      for (size_t i = 0; i < 4 && at + i < bytes.size(); ++i)
+        bytes[at + i] = static_cast<uint8_t>(word >> 8 * i);
+    }
+    return bytes;
+  }
+  ParameterTransfer transfer{CyclicRecord{}};
+};
+
+TEST_F(ListInPieces, UpToTheLastPlace) {
+  using Result = bus::ParameterAnswer::Result;
+  for (const size_t size : {1024U, 1027U, 4096U, 16372U, 16375U, 16376U}) {
+    ASSERT_EQ(write(pattern(size)), Result::Done) << size;
+    EXPECT_EQ(drive.blocks[95].data, pattern(size)) << size;
+    EXPECT_EQ(read(), pattern(size)) << size;
+  }
+  // One more does not fit: nothing is cut.
+  ASSERT_EQ(ask(bus::ParameterRequest::Kind::Write, 2, 5).result, Result::Done);
+  EXPECT_EQ(ask(bus::ParameterRequest::Kind::Write, 1, 16377).result, Result::Refused);
+  drive.blocks[95].data = pattern(16377);
+  EXPECT_EQ(ask(bus::ParameterRequest::Kind::Read, 1).result, Result::Failed);
+  EXPECT_EQ(drive.blocks[95].data.size(), 16377U);
 }
 
 TEST_F(ServiceChannelTest, WhatHasAnotherLengthIsNotSent) {
