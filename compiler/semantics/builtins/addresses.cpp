@@ -27,6 +27,13 @@ const Type *checkAdr(Context &c, CallExpr *expr) {
                          : place->kind == ExprKind::Member ? as<MemberExpr>(place)->symbol
                                                            : nullptr;
   const bool isEnumerator = symbol != nullptr && symbol->kind == SymbolKind::Enumerator;
+  if (place->kind == ExprKind::Literal) {
+    c.report(Code::WrongArgumentType, place->span,
+             "`" + calleeName(expr) + "` needs a variable here, not a literal",
+             "it has no place in memory")
+        .help("declare `text : " + typeName(place->type) + " := …;` in VAR, and take its address");
+    return elementaryType(TypeKind::Error);
+  }
   if (!isPlace || isEnumerator)
     return argumentError(c, expr, 0, "a variable");
   if (place->type->kind == TypeKind::OpenArray)
