@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <optional>
 #include <span>
 
@@ -50,6 +51,41 @@ bool isBlankText(std::string_view text) {
 
 /// Values that a data block's BEGIN part gives, by the names of its members in lower case.
 using Initial = std::map<std::string, std::string>;
+
+/// The type that a literal of Structured Text has as a constant; empty: it is no literal.
+std::string_view constantType(std::string_view value) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kPrefixes = {
+      {{"T", "TIME"},    {"TIME", "TIME"},   {"D", "DATE"},      {"DATE", "DATE"},
+       {"TOD", "TOD"},   {"DT", "DT"},       {"BOOL", "BOOL"},   {"BYTE", "BYTE"},
+       {"WORD", "WORD"}, {"DWORD", "DWORD"}, {"LWORD", "LWORD"}, {"SINT", "SINT"},
+       {"INT", "INT"},   {"DINT", "DINT"},   {"LINT", "LINT"},   {"USINT", "USINT"},
+       {"UINT", "UINT"}, {"UDINT", "UDINT"}, {"REAL", "REAL"},   {"LREAL", "LREAL"}}};
+  const std::string upper = stride::common::upperCase(value);
+  if (upper.starts_with('\''))
+    return "STRING";
+  if (upper == "TRUE" || upper == "FALSE")
+    return "BOOL";
+  if (const size_t hash = upper.find('#'); hash != std::string::npos)
+    for (const auto &[prefix, type] : kPrefixes)
+      if (std::string_view(upper).substr(0, hash) == prefix)
+        return type;
+  const size_t sign = upper.starts_with('-') || upper.starts_with('+') ? 1 : 0;
+  if (upper.size() == sign || upper[sign] < '0' || upper[sign] > '9' ||
+      upper.find_first_not_of("0123456789ABCDEF_#.+-", sign) != std::string::npos)
+    return {};
+  if (upper.find('#') == std::string::npos &&
+      upper.find_first_not_of("0123456789_", sign) != std::string::npos) {
+    double number = 0;
+    const auto [end, error] =
+        std::from_chars(upper.data() + sign, upper.data() + upper.size(), number);
+    return error == std::errc() && end == upper.data() + upper.size() ? "REAL" : "";
+  }
+  std::string digits = upper.substr(upper.front() == '+' ? 1 : 0);
+  std::erase(digits, '_');
+  int16_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return error == std::errc() && end == digits.data() + digits.size() ? "INT" : "DINT";
+}
 
 class Blocks {
 public:
@@ -315,15 +351,41 @@ private:
         if (!text.atEnd() && text.now().text == ";")
           text.skip();
       } else if (isSclWord(token, "CONST")) {
-        text.leaveOut(token.line, "constants of a CONST section have no type: declare them in VAR "
-                                  "CONSTANT");
-        skipTo("END_CONST", text);
+        constants(text, out);
       } else if (isOneOf(token, kSections)) {
         section(name, text, out);
       } else {
         return;
       }
     }
+  }
+
+  /// `name := value;` of a CONST section: the value says the type.
+  static void constants(SclText &text, std::string &out) {
+    text.skip();
+    out += "VAR CONSTANT";
+    for (text.pass(out); !text.atEnd() && !text.isNow("END_CONST"); text.pass(out)) {
+      const size_t line = text.now().line;
+      const std::string name = text.takeName();
+      std::string passed;
+      text.pass(passed);
+      if (!isBlankText(passed))
+        out += passed;
+      const bool assigned = !text.atEnd() && text.now().text == ":=";
+      if (assigned)
+        text.skip();
+      const std::string value(trimmed(text.value()));
+      const std::string_view type = constantType(value);
+      if (name.empty() || !assigned || type.empty())
+        text.leaveOut(line, fmt::format("the constant `{} := {}` is no plain value: declare it in "
+                                        "VAR CONSTANT",
+                                        name, value));
+      else
+        out += fmt::format("{} : {} := {};", name, type, value);
+    }
+    out += "END_VAR";
+    if (!text.atEnd())
+      text.skip();
   }
 
   static void section(const std::string &name, SclText &text, std::string &out) {
@@ -365,6 +427,27 @@ private:
   size_t strayLine_ = 0;
 };
 
+/// DTL is a structure that S7-1200 and S7-1500 bring along.
+void addDateType(const std::string &file, std::string_view text, Model &model) {
+  const std::vector<SclToken> tokens = sclTokens(text);
+  const auto used =
+      std::ranges::find_if(tokens, [](const SclToken &each) { return isSclWord(each, "DTL"); });
+  const bool known = std::ranges::any_of(model.objects, [](const Object &each) {
+    return stride::common::upperCase(each.name) == "DTL";
+  });
+  if (used == tokens.end() || known)
+    return;
+  model.objects.push_back({ObjectKind::Type,
+                           "DTL",
+                           {},
+                           "TYPE DTL :\nSTRUCT\n  YEAR : UINT := 1970;\n  MONTH : USINT := 1;\n"
+                           "  DAY : USINT := 1;\n  WEEKDAY : USINT := 5;\n  HOUR : USINT;\n"
+                           "  MINUTE : USINT;\n  SECOND : USINT;\n  NANOSECOND : UDINT;\n"
+                           "END_STRUCT\nEND_TYPE\n",
+                           {file, used->line}});
+  model.changed.push_back({{file, used->line}, "DTL", "became a structure of the project"});
+}
+
 } // namespace
 } // namespace scl_blocks
 
@@ -379,6 +462,7 @@ bool isScl(std::string_view text) {
 
 void readScl(const std::string &file, std::string_view text, Model &model) {
   scl_blocks::Blocks(file, text, model).read();
+  scl_blocks::addDateType(file, text, model);
 }
 
 } // namespace stc::import

@@ -31,9 +31,9 @@ constexpr std::array<std::string_view, 5> kUnknownConstants = {"s5t#", "s5time#"
                                                                "dtl#"};
 
 /// Types that only a Siemens CPU has.
-constexpr std::array<std::string_view, 12> kUnknownTypes = {
-    "dtl",   "s5time",  "variant",  "any",    "pointer",  "block_fb",
-    "timer", "counter", "block_fc", "hw_any", "block_db", "remote"};
+constexpr std::array<std::string_view, 11> kUnknownTypes = {
+    "s5time",  "variant",  "any",    "pointer",  "block_fb", "timer",
+    "counter", "block_fc", "hw_any", "block_db", "remote"};
 
 bool ends(const SclToken &token, char sign) {
   return token.kind == SclKind::Sign && token.text.size() == 1 && token.text.front() == sign;

@@ -75,7 +75,10 @@ Expr *AstBuilder::typedLiteral(const Token &start) {
   }
   bool good = true;
   const bool based = value.find('#') != std::string_view::npos;
-  if (value[0] == '\'' || value[0] == '"') {
+  if (value[0] == '\'' && isWord(typeName, "utf8")) {
+    node->typeName = {}; // an encoding, no type
+    good = literals_.string(value, at, *node, true);
+  } else if (value[0] == '\'' || value[0] == '"') {
     good = literals_.string(value, at, *node);
   } else if (isWord(value, "true") || isWord(value, "false")) {
     node->literal = LiteralKind::Boolean;

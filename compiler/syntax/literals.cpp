@@ -2,6 +2,7 @@
 
 #include "compiler/syntax/literal_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -175,11 +176,13 @@ std::optional<uint32_t> hexadecimal(std::string_view text, size_t digits) {
 
 } // namespace
 
-bool LiteralReader::string(std::string_view text, Span span, ast::Literal &out) {
+bool LiteralReader::string(std::string_view text, Span span, ast::Literal &out, bool asBytes) {
   const bool wide = text[0] == '"';
   out.literal = wide ? LiteralKind::Wstring : LiteralKind::String;
   const std::string_view content = text.substr(1, text.size() - 2);
-  if (content.find_first_of("$\r") == std::string_view::npos) {
+  const auto isForeign = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+  if (content.find_first_of("$\r") == std::string_view::npos &&
+      !(asBytes && std::ranges::any_of(content, isForeign))) {
     out.text = content;
     return true;
   }
@@ -189,6 +192,10 @@ bool LiteralReader::string(std::string_view text, Span span, ast::Literal &out) 
   for (size_t i = 0; i < content.size(); ++i) {
     if (content[i] == '\r' && i + 1 < content.size() && content[i + 1] == '\n')
       continue; // the end of a line is one character, whatever the file has
+    if (asBytes && isForeign(content[i])) {
+      appendUnit(value, static_cast<unsigned char>(content[i]), false);
+      continue;
+    }
     if (content[i] != '$') {
       value += content[i];
       continue;

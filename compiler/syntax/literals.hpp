@@ -22,8 +22,9 @@ public:
   bool integer(std::string_view text, Span span, ast::Literal &out);
   /// `1.5e-3`
   bool real(std::string_view text, Span span, ast::Literal &out);
-  /// `'…'` or `"…"`
-  bool string(std::string_view text, Span span, ast::Literal &out);
+  /// `'…'` or `"…"`. With `asBytes` (`UTF8#'…'`) each byte of the source's UTF-8 becomes a
+  /// character of the STRING.
+  bool string(std::string_view text, Span span, ast::Literal &out, bool asBytes = false);
   /// What stands after the prefix and `#`, which is in lower case: `t`, `ltime`, `d`, `tod`,
   /// `ldt`, …
   bool timeOrDate(std::string_view prefix, std::string_view value, Span span, ast::Literal &out);

@@ -12,6 +12,7 @@ the order in which their statements run into one number, cycle by cycle, which m
 import argparse
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -319,6 +320,22 @@ def expected(charts, seed):
     return [one.hash for one in found]
 
 
+def through_plcopen(options, source):
+    """The project that the program becomes as PLCopen XML and back, or None with what went wrong."""
+    xml, project = source.with_suffix(".xml"), source.with_suffix("")
+    for arguments in (["export", "plcopen", source.name, "-o", xml.name, "-W", "off=all-warnings"],
+                      ["import", xml.name, "-o", project.name, "--force"]):
+        done = subprocess.run([options.stride, *arguments], capture_output=True, text=True, check=False, cwd=source.parent)
+        if done.returncode != 0:
+            print(f"{source}: {' '.join(arguments)}\n{done.stdout}{errors(done.stderr)}")
+            return None
+    if "INITIAL_STEP" in xml.read_text(encoding="utf-8"):
+        print(f"{xml}: a chart is text")
+        return None
+    xml.unlink()
+    return project
+
+
 def check(options, number):
     chance = random.Random(number)
     charts = [Chart(chance, i) for i in range(CHARTS)]
@@ -326,13 +343,18 @@ def check(options, number):
     lines = [line for chart in charts for line in chart.text()] + program(charts, seed)
     source = options.keep / f"charts{number}.st"
     source.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    simulated = through_plcopen(options, source) if options.plcopen else source
+    if simulated is None:
+        return False
     shown = ",".join(f"PLC_PRG.c{i}.hash" for i in range(CHARTS))
-    result = subprocess.run([options.stride, "sim", source.name, "--for", f"T#{CYCLES * CYCLE_MS}ms", "--print", shown,
+    result = subprocess.run([options.stride, "sim", simulated.name, "--for", f"T#{CYCLES * CYCLE_MS}ms", "--print", shown,
                              "-W", "off=lints"], capture_output=True, text=True, check=False, cwd=source.parent)
     found = dict(line.split(" = ", 1) for line in result.stdout.splitlines() if " = " in line)
     wrong = [i for i, value in enumerate(expected(charts, seed)) if found.get(f"PLC_PRG.c{i}.hash") != str(value)]
     if result.returncode == 0 and not wrong:
         source.unlink()
+        if options.plcopen:
+            shutil.rmtree(simulated)
         return True
     print(f"{source}: the charts {wrong} disagree\n{errors(result.stderr)}")
     return False
@@ -347,6 +369,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("stride", type=lambda text: str(pathlib.Path(text).resolve()))
     parser.add_argument("--seeds", default="1..3")
+    parser.add_argument("--plcopen", action="store_true", help="run what comes back of an export to PLCopen XML")
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()))
     options = parser.parse_args()
     first, _, last = options.seeds.partition("..")

@@ -6,6 +6,7 @@
 #include "compiler/codegen/calls/pool_objects.hpp"
 #include "compiler/codegen/expressions/conversions.hpp"
 #include "compiler/codegen/expressions/expressions.hpp"
+#include "compiler/codegen/places/own_checks.hpp"
 #include "compiler/codegen/places/places.hpp"
 #include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/hierarchy.hpp"
@@ -164,6 +165,19 @@ void emitDescribe(EmitContext &cx, const BuiltinCall &call, std::string_view) {
          << "U, reinterpret_cast<::stride::BYTE *>(";
   emitBuiltinArgument(cx, call, 0);
   cx.out << "), static_cast<::stride::DINT>(sizeof(" << cx.type(variable) << "))}";
+}
+
+void emitAtomicAdd(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+  cx.out << "__atomic_fetch_add(&";
+  emitFollowed(cx, Slot::Reference, call.expr->span, [&] {
+    if (call.names.empty())
+      emitCheckedPointer(cx, call.value(0));
+    else
+      cx.out << call.names[0];
+  });
+  cx.out << ", static_cast<::stride::DINT>(";
+  emitBuiltinArgument(cx, call, 1);
+  cx.out << "), __ATOMIC_SEQ_CST)";
 }
 
 void emitIsValidRef(EmitContext &cx, const BuiltinCall &call, std::string_view) {

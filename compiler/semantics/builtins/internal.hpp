@@ -111,6 +111,7 @@ template <int64_t ArrayType::*bound> const Type *checkBound(Context &c, ast::Cal
 /// __NEW, __DELETE, INI
 const Type *checkNew(Context &c, ast::CallExpr *expr);
 const Type *checkDelete(Context &c, ast::CallExpr *expr);
+const Type *checkAtomicAdd(Context &c, ast::CallExpr *expr);
 const Type *checkIni(Context &c, ast::CallExpr *expr);
 /// __ISVALIDREF
 const Type *checkIsValidRef(Context &c, ast::CallExpr *expr);

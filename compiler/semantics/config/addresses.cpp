@@ -204,7 +204,14 @@ static bool mayBePlaced(Context &c, const VarSymbol *variable) {
   else if (owner != DeclKind::Globals && decl->section != Section::Local &&
            (decl->section != Section::Stat || address.incomplete))
     refuse("only variables of VAR and VAR_GLOBAL can have an address",
-           "`" + name + "` is declared in another section");
+           "`" + name + "` is declared in another section")
+        .help(decl->section == Section::Input || decl->section == Section::InOut
+                  ? "declare it in VAR_GLOBAL, and give it to the input in the call: `Block(" +
+                        name + " := …)`"
+              : decl->section == Section::Output
+                  ? "declare it in VAR_GLOBAL, and assign the output to it: `Block(" + name +
+                        " => …)`"
+                  : std::string("declare it in VAR or in VAR_GLOBAL"));
   else if (variable->isConstant)
     refuse("the constant `" + name + "` cannot have an address", "a constant is not stored")
         .help("remove CONSTANT");

@@ -146,17 +146,42 @@ TEST(SclReader, GivesStructuresNames) {
 }
 
 TEST(SclReader, NamesWhatHasNoCounterpart) {
-  const Model model = read("FUNCTION_BLOCK F\nVAR\n  t : DTL;\n  w : Word;\n  b AT w : "
-                           "Array[0..15] of Bool;\nEND_VAR\nCONST\n  K := 5;\nEND_CONST\n"
+  const Model model = read("FUNCTION_BLOCK F\nVAR\n  t : Variant;\n  w : Word;\n  b AT w : "
+                           "Array[0..15] of Bool;\nEND_VAR\nCONST\n  K := 5 * M;\nEND_CONST\n"
                            "LABEL\n  m1;\nEND_LABEL\nBEGIN\n  #s := S5T#2s;\n  #x := "
                            "%DB1.DBX0.0;\nEND_FUNCTION_BLOCK\nrest\n");
   ASSERT_EQ(model.objects.size(), 1U);
   std::vector<std::string> said;
   for (const Remark &each : model.leftOut)
     said.push_back(std::to_string(each.origin.line) + each.text.substr(0, 12));
-  EXPECT_EQ(said, (std::vector<std::string>{"3the type DTL", "5`b` is a vie", "7constants of",
+  EXPECT_EQ(said, (std::vector<std::string>{"3the type Var", "5`b` is a vie", "8the constant",
                                             "14constants li", "15the address ", "17it belongs t"}))
       << model.leftOut.size();
+}
+
+/// The value says the type; what is no plain value is left out.
+TEST(SclReader, GivesConstantsTypes) {
+  const Model model =
+      read("FUNCTION_BLOCK F\nCONST\n  a := 5; // five\n  b := -32_768;\n  c := 32768;\n  d := "
+           "2.5E-1;\n  e := 'x';\n  f := TRUE;\n  g := T#5s;\n  h := W#16#FF;\n  i := 16#A;\n"
+           "END_CONST\nBEGIN\n  #x := #a;\nEND_FUNCTION_BLOCK\n");
+  EXPECT_TRUE(model.leftOut.empty());
+  EXPECT_EQ(model.objects[0].text,
+            "FUNCTION_BLOCK F\nVAR CONSTANT\n  a : INT := 5; // five\n  b : INT := -32_768;\n"
+            "  c : DINT := 32768;\n  d : REAL := 2.5E-1;\n  e : STRING := 'x';\n"
+            "  f : BOOL := TRUE;\n  g : TIME := T#5s;\n  h : WORD := WORD#16#FF;\n"
+            "  i : DINT := 16#A;\nEND_VAR\n\n  x := a;\nEND_FUNCTION_BLOCK\n");
+}
+
+/// The CPU brings it along; here it becomes a structure, once.
+TEST(SclReader, MakesAStructureOfDtl) {
+  const Model model = read("FUNCTION_BLOCK F\nVAR\n  t : DTL;\n  u : dtl;\nEND_VAR\nBEGIN\n"
+                           "  #t.YEAR := 2026;\nEND_FUNCTION_BLOCK\n");
+  EXPECT_TRUE(model.leftOut.empty());
+  ASSERT_EQ(model.objects.size(), 2U);
+  EXPECT_EQ(model.objects[1].name, "DTL");
+  EXPECT_NE(model.objects[1].text.find("  NANOSECOND : UDINT;\n"), std::string::npos);
+  EXPECT_EQ(model.objects[1].origin.line, 3U);
 }
 
 TEST(SclReader, LeavesOutWhatDoesNotEnd) {
