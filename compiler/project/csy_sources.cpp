@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint32_t kFirstImaginary = 9;
 constexpr uint32_t kFirstRemote = 13;
+constexpr size_t kLeastAxesOfPath = 2;
 
 /// `(A := 1, B := 2)`
 std::string structure(const CsyFields &fields) {
@@ -139,16 +140,15 @@ private:
   void serve(uint32_t channel, std::string_view block, std::string_view type,
              const std::string &settings, std::string_view arguments) {
     declareChannel(fmt::format("{}", channel), type);
-    instances_ += fmt::format("  fb{0} : CSY.{1} := (iChannel := {0}{2});\n", channel, block,
-                              settings);
-    calls_ += fmt::format("fb{0}(Module := {1}, Channel := {1}_{0}{2});\n", channel, prefix_,
-                          arguments);
+    instances_ +=
+        fmt::format("  fb{0} : CSY.{1} := (iChannel := {0}{2});\n", channel, block, settings);
+    calls_ +=
+        fmt::format("fb{0}(Module := {1}, Channel := {1}_{0}{2});\n", channel, prefix_, arguments);
   }
 
   void addAxis(const CsyAxisConfig &axis) {
     const std::string parameters =
-        axis.parameters.empty() ? std::string()
-                                : ", stConfigured := " + structure(axis.parameters);
+        axis.parameters.empty() ? std::string() : ", stConfigured := " + structure(axis.parameters);
     if (axis.channel >= kFirstRemote) {
       std::string encoder;
       if (axis.encoder.span.valid()) {
@@ -170,9 +170,8 @@ private:
       return;
     join(*found, axis.axis);
     serve(axis.channel, "CSY_AXIS", "T_CSY_IND",
-          fmt::format(", bImaginary := {}{}{}",
-                      axis.channel >= kFirstImaginary ? "TRUE" : "FALSE", parameters,
-                      inputs(axis.inputs)),
+          fmt::format(", bImaginary := {}{}{}", axis.channel >= kFirstImaginary ? "TRUE" : "FALSE",
+                      parameters, inputs(axis.inputs)),
           fmt::format(", Axis := {}", found->name));
   }
 
@@ -195,11 +194,21 @@ private:
 
   void addFollower(const CsyFollowerConfig &group) {
     std::string slaves;
-    for (const CsyFields &slave : group.slaves)
+    size_t byCams = 0;
+    for (const CsyFields &slave : group.slaves) {
       slaves += (slaves.empty() ? "" : ", ") + structure(slave);
+      for (const auto &[member, value] : slave)
+        byCams += member == "bCam" && value == "TRUE" ? 1 : 0;
+    }
+    std::string path;
+    if (byCams >= kLeastAxesOfPath) {
+      variables_ += fmt::format("  {{attribute 'hide'}}\n  {}_{}_Path : CSY.CSY_PATH_STATE;\n",
+                                prefix_, group.channel);
+      path = fmt::format(", pPath := ADR({}_{}_Path)", prefix_, group.channel);
+    }
     serve(group.channel, "CSY_FOLLOWER", "T_CSY_FOLLOW",
-          fmt::format(", iMaster := {}{}", group.master,
-                      slaves.empty() ? std::string() : ", astConfigured := [" + slaves + "]"),
+          fmt::format(", iMaster := {}{}{}", group.master,
+                      slaves.empty() ? std::string() : ", astConfigured := [" + slaves + "]", path),
           "");
   }
 
@@ -231,12 +240,14 @@ private:
     if (!groups.empty())
       groups = fmt::format(", iGroups := {}, apGroup := [{}]", groups_.size(), groups);
     out_.add(fmt::format("{{attribute 'hide'}}\nPROGRAM {}__service\nVAR\n"
-                         "  fb0 : CSY.CSY_RING := (iRack := {}, iSlot := {}, pMemory := ADR(%MW0){}{});\n{}END_VAR\n",
+                         "  fb0 : CSY.CSY_RING := (iRack := {}, iSlot := {}, pMemory := "
+                         "ADR(%MW0){}{});\n{}END_VAR\n",
                          prefix_, csy.rack, csy.slot, inputs(csy.inputs), groups, instances_),
              csy.span);
-    out_.add(fmt::format("fb0(Module := {0}, Channel := {0}_0, General := {0}_MOD);\n{1}END_PROGRAM\n",
-                         prefix_, calls_),
-             csy.span);
+    out_.add(
+        fmt::format("fb0(Module := {0}, Channel := {0}_0, General := {0}_MOD);\n{1}END_PROGRAM\n",
+                    prefix_, calls_),
+        csy.span);
   }
 
   ProjectConfig &config_;
