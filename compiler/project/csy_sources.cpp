@@ -13,6 +13,7 @@ namespace {
 
 constexpr uint32_t kFirstImaginary = 9;
 constexpr uint32_t kFirstRemote = 13;
+constexpr size_t kLeastAxesOfPath = 2;
 
 /// `(A := 1, B := 2)`
 std::string structure(const CsyFields &fields) {
@@ -193,11 +194,21 @@ private:
 
   void addFollower(const CsyFollowerConfig &group) {
     std::string slaves;
-    for (const CsyFields &slave : group.slaves)
+    size_t byCams = 0;
+    for (const CsyFields &slave : group.slaves) {
       slaves += (slaves.empty() ? "" : ", ") + structure(slave);
+      for (const auto &[member, value] : slave)
+        byCams += member == "bCam" && value == "TRUE" ? 1 : 0;
+    }
+    std::string path;
+    if (byCams >= kLeastAxesOfPath) {
+      variables_ += fmt::format("  {{attribute 'hide'}}\n  {}_{}_Path : CSY.CSY_PATH_STATE;\n",
+                                prefix_, group.channel);
+      path = fmt::format(", pPath := ADR({}_{}_Path)", prefix_, group.channel);
+    }
     serve(group.channel, "CSY_FOLLOWER", "T_CSY_FOLLOW",
-          fmt::format(", iMaster := {}{}", group.master,
-                      slaves.empty() ? std::string() : ", astConfigured := [" + slaves + "]"),
+          fmt::format(", iMaster := {}{}{}", group.master,
+                      slaves.empty() ? std::string() : ", astConfigured := [" + slaves + "]", path),
           "");
   }
 

@@ -228,6 +228,75 @@ TEST(CsyTrajectoryProperty, MovesKeepTheMastersLimits) {
   }
 }
 
+/// Cams are linear between their points, so that a slave is on the path at them, and as far from it
+/// between as the curvature lets a chord be.
+TEST(CsyTrajectoryProperty, CamsAreThePathAtTheirPoints) {
+  for (uint64_t seed = 0; seed < casesOf(1000); ++seed) {
+    Random random(seed);
+    const Path path = randomPath(random);
+    const Trajectory &trajectory = *path.trajectory;
+    CamCursor cursor{};
+    CamPoint last = nextCamPoint(trajectory, cursor);
+    ASSERT_EQ(last.master, 0.0);
+    const Vector3 first = last.slave;
+    for (uint32_t i = 1; i < loopPoints(trajectory); ++i) {
+      const CamPoint next = nextCamPoint(trajectory, cursor);
+      ASSERT_GT(next.master, last.master) << seed << " point " << i;
+      if (i < trajectory.camPoints) {
+        ASSERT_LT(sizeOf(next.slave - positionAt(trajectory, next.master)), 1e-9) << seed;
+        const double middle = 0.5 * (last.master + next.master);
+        const Piece &piece = pieceAt(trajectory, middle);
+        double bend = 0;
+        for (int k = 0; k <= 32; ++k)
+          bend = std::max(bend, sizeOf(stride::path::overParameter(piece.shape, k / 32.0).d2));
+        const double step = 1.0 / piece.samples;
+        const Vector3 chord = (last.slave + next.slave) * 0.5;
+        // The greatest second derivative may lie between two of 33 places.
+        ASSERT_LE(sizeOf(chord - positionAt(trajectory, middle)),
+                  1.05 * bend * step * step / 8 + 1e-9)
+            << seed << " point " << i;
+      }
+      last = next;
+    }
+    ASSERT_LT(sizeOf(last.slave - first), 1e-12) << seed;
+  }
+}
+
+TEST(CsyTrajectoryProperty, BrakingKeepsToItsDeceleration) {
+  auto speeds = std::make_unique<Speeds>();
+  auto move = std::make_unique<ModulatedMove>();
+  for (uint64_t seed = 0; seed < casesOf(500); ++seed) {
+    Random random(seed);
+    const Path path = randomPath(random);
+    computeSpeeds(*path.table, *path.trajectory, {{5, 7, 9}, {20, 30, 40}}, *speeds);
+    const MasterLimits limits{0, random.magnitude(0, 2), random.magnitude(0, 2)};
+    const double to = random.uniform(0, path.trajectory->length);
+    const double from = random.chance(0.5) ? 0 : path.trajectory->length;
+    ASSERT_TRUE(beginMove(*path.trajectory, speeds->computed, limits, from, to, *move));
+    const double cycle = random.magnitude(-4, -1);
+    for (int k = random.below(400); k > 0; --k)
+      advance(*move, cycle);
+    const double deceleration = limits.deceleration * random.uniform(1, 3);
+    const double sign = to < from ? -1 : 1;
+    const double begin = move->position;
+    const double speed = sign * move->velocity;
+    MasterState state{begin, move->velocity, false};
+    double time = 0;
+    while (!state.done) {
+      const MasterState now = brake(*move, deceleration, cycle);
+      ASSERT_GE(sign * (now.position - state.position), 0) << seed;
+      ASSERT_GE(sign * (to - now.position), 0) << seed;
+      if (!now.done) {
+        ASSERT_NEAR(now.velocity, state.velocity - sign * deceleration * cycle, 1e-9) << seed;
+      }
+      state = now;
+      time += cycle;
+      ASSERT_LT(time, 1000) << seed;
+    }
+    ASSERT_NEAR(sign * (state.position - begin), speed * speed / (2 * deceleration), 1e-7) << seed;
+  }
+}
+
 TEST(CsyTrajectoryProperty, NoTableBreaksAnything) {
   Path path;
   for (uint64_t seed = 0; seed < casesOf(20000); ++seed) {

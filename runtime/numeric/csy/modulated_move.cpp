@@ -109,6 +109,8 @@ bool beginMove(const Trajectory &trajectory, const double *speed, const MasterLi
   move.at = 0;
   move.since = 0.0;
   move.base = 0.0;
+  move.position = from;
+  move.velocity = 0.0;
   collectLegs(trajectory, speed, move);
   for (uint32_t i = 0; i < move.legs; ++i)
     if (!(move.leg[i].limit > 0.0))
@@ -117,7 +119,9 @@ bool beginMove(const Trajectory &trajectory, const double *speed, const MasterLi
   return true;
 }
 
-MasterState advance(ModulatedMove &move, double time) noexcept {
+namespace {
+
+MasterState advanced(ModulatedMove &move, double time) noexcept {
   move.since += time;
   while (move.at < move.legs) {
     const Course course = courseOf(move, move.at);
@@ -132,6 +136,29 @@ MasterState advance(ModulatedMove &move, double time) noexcept {
     ++move.at;
   }
   return {move.to, 0.0, true};
+}
+
+MasterState keep(ModulatedMove &move, const MasterState &state) noexcept {
+  move.position = state.position;
+  move.velocity = state.velocity;
+  return state;
+}
+
+} // namespace
+
+MasterState advance(ModulatedMove &move, double time) noexcept {
+  return keep(move, advanced(move, time));
+}
+
+MasterState brake(ModulatedMove &move, double deceleration, double time) noexcept {
+  const double speed = move.direction * move.velocity;
+  const double braking = smaller(time, speed / deceleration);
+  const double left = larger(0.0, speed - deceleration * braking);
+  const double way = 0.5 * (speed + left) * braking;
+  const double room = move.direction * (move.to - move.position);
+  const bool rests = braking < time || left == 0.0 || way >= room;
+  return keep(move, {way >= room ? move.to : move.position + move.direction * way,
+                     rests ? 0.0 : move.direction * left, rests});
 }
 
 } // namespace stride::csy

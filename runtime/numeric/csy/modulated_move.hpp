@@ -33,6 +33,8 @@ struct ModulatedMove {
   double to;        ///< where it ends [mm]
   double direction; ///< 1 or -1
   MasterLimits limits;
+  double position; ///< of the master, after the last step [mm]
+  double velocity; ///< [mm/s]
 };
 
 /// The master's motion.
@@ -50,6 +52,10 @@ bool beginMove(const Trajectory &trajectory, const double *speed, const MasterLi
 
 /// Goes on by a time. [s] Ends at `to` to the last digit.
 MasterState advance(ModulatedMove &move, double time) noexcept;
+
+/// Brakes by a time instead, with a deceleration above 0. [s], [mm/s^2] Never goes past `to`. Done:
+/// it has come to rest; the move is over then, and going on takes another one.
+MasterState brake(ModulatedMove &move, double deceleration, double time) noexcept;
 
 } // namespace stride::csy
 

@@ -264,17 +264,61 @@ Vector3 positionAt(const Trajectory &trajectory, double master) noexcept {
   return placeOn(trajectory, piece, part > 0.0 ? smaller(part, 1.0) : 0.0);
 }
 
+namespace {
+
+/// Where the path begins, and where it ends.
+Vector3 beginOf(const Trajectory &trajectory) noexcept {
+  return placeOn(trajectory, trajectory.piece[0], 0.0);
+}
+
+Vector3 endOf(const Trajectory &trajectory) noexcept {
+  return placeOn(trajectory, trajectory.piece[trajectory.pieces - 1], 1.0);
+}
+
+CamPoint wayBack(const Trajectory &trajectory, uint32_t sample) noexcept {
+  const Vector3 end = endOf(trajectory);
+  const Vector3 way = beginOf(trajectory) - end;
+  const double part = static_cast<double>(sample) / kSpareCamPoints;
+  if (sample == kSpareCamPoints)
+    return {trajectory.length + norm(way), beginOf(trajectory)};
+  return {trajectory.length + norm(way) * part, end + way * part};
+}
+
+} // namespace
+
+bool isClosed(const Trajectory &trajectory) noexcept {
+  constexpr double kSame = 1e-9;
+  return norm(endOf(trajectory) - beginOf(trajectory)) <= kSame * trajectory.length;
+}
+
+uint32_t loopPoints(const Trajectory &trajectory) noexcept {
+  return trajectory.camPoints + (isClosed(trajectory) ? 0 : kSpareCamPoints);
+}
+
+CamPoint nextCamPoint(const Trajectory &trajectory, CamCursor &cursor) noexcept {
+  const uint32_t number = cursor.next++;
+  if (number == 0)
+    return {0.0, beginOf(trajectory)};
+  if (number >= trajectory.camPoints)
+    return wayBack(trajectory, number - trajectory.camPoints + 1);
+  const Piece &piece = trajectory.piece[cursor.piece];
+  const double part = static_cast<double>(++cursor.sample) / piece.samples;
+  CamPoint point{piece.start + piece.length * part, placeOn(trajectory, piece, part)};
+  if (cursor.sample == piece.samples) {
+    cursor.sample = 0;
+    ++cursor.piece;
+  }
+  if (number + 1 == trajectory.camPoints && isClosed(trajectory))
+    point.slave = beginOf(trajectory); // to the last digit, as a loop wants it
+  return point;
+}
+
 void fillCams(const Trajectory &trajectory, double *master, Vector3 *slaves) noexcept {
-  uint32_t next = 0;
-  master[next] = 0.0;
-  slaves[next++] = placeOn(trajectory, trajectory.piece[0], 0.0);
-  for (uint32_t i = 0; i < trajectory.pieces; ++i) {
-    const Piece &piece = trajectory.piece[i];
-    for (uint32_t sample = 1; sample <= piece.samples; ++sample, ++next) {
-      const double part = static_cast<double>(sample) / piece.samples;
-      master[next] = piece.start + piece.length * part;
-      slaves[next] = placeOn(trajectory, piece, part);
-    }
+  CamCursor cursor{};
+  for (uint32_t i = 0; i < trajectory.camPoints; ++i) {
+    const CamPoint point = nextCamPoint(trajectory, cursor);
+    master[i] = point.master;
+    slaves[i] = point.slave;
   }
 }
 

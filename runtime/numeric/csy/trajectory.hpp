@@ -51,7 +51,32 @@ const Piece &pieceAt(const Trajectory &trajectory, double master) noexcept;
 /// Where the axes are. Before the start and after the end: there. [mm] in
 Vector3 positionAt(const Trajectory &trajectory, double master) noexcept;
 
-/// Points of the cams: `master` and `slaves` have room for trajectory.camPoints of them.
+/// A point of the cams.
+struct CamPoint {
+  double master; ///< [mm]
+  Vector3 slave; ///< [mm]; z: [deg] of a tool
+};
+
+/// Where the filling of cams is: in a piece, or among the points of the way back.
+struct CamCursor {
+  uint32_t piece;
+  uint32_t sample;
+  uint32_t next; ///< number of the next point, from 0
+};
+
+/// Whether the path ends where it begins.
+bool isClosed(const Trajectory &trajectory) noexcept;
+
+/// How many points the cams get: those of the path, and, since a cam always loops, as many more as
+/// are spare to bring the slaves back to the begin of a path that is not closed. The way back is a
+/// line; the master goes as far as the slaves.
+uint32_t loopPoints(const Trajectory &trajectory) noexcept;
+
+/// The next one of them. To be called loopPoints times, with a cursor of zeros at first.
+CamPoint nextCamPoint(const Trajectory &trajectory, CamCursor &cursor) noexcept;
+
+/// Points of the cams, without the way back: `master` and `slaves` have room for
+/// trajectory.camPoints of them.
 void fillCams(const Trajectory &trajectory, double *master, Vector3 *slaves) noexcept;
 
 } // namespace stride::csy

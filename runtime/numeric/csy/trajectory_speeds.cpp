@@ -130,14 +130,18 @@ double greatestDerivative(const path::Shape &shape, uint32_t coordinate, uint32_
   return greatestOfPolynomial(polynomial, k);
 }
 
+void computeSpeed(const TrajectoryTable &table, const Trajectory &trajectory,
+                  const SlaveLimits &limits, uint32_t piece, Speeds &speeds) noexcept {
+  const double asked = table.point[trajectory.piece[piece].point].speed;
+  const double allowed = allowedSpeed(trajectory.piece[piece], limits);
+  speeds.allowed[piece] = allowed;
+  speeds.computed[piece] = asked > 0.0 ? smaller(asked, allowed) : allowed;
+}
+
 void computeSpeeds(const TrajectoryTable &table, const Trajectory &trajectory,
                    const SlaveLimits &limits, Speeds &speeds) noexcept {
-  for (uint32_t i = 0; i < trajectory.pieces; ++i) {
-    const Piece &piece = trajectory.piece[i];
-    const double asked = table.point[piece.point].speed;
-    speeds.allowed[i] = allowedSpeed(piece, limits);
-    speeds.computed[i] = asked > 0.0 ? smaller(asked, speeds.allowed[i]) : speeds.allowed[i];
-  }
+  for (uint32_t i = 0; i < trajectory.pieces; ++i)
+    computeSpeed(table, trajectory, limits, i, speeds);
 }
 
 double constantSpeed(const Trajectory &trajectory, const Speeds &speeds) noexcept {

@@ -27,6 +27,10 @@ double greatestDerivative(const path::Shape &shape, uint32_t coordinate, uint32_
 void computeSpeeds(const TrajectoryTable &table, const Trajectory &trajectory,
                    const SlaveLimits &limits, Speeds &speeds) noexcept;
 
+/// The same for one piece only, so that the work can be spread.
+void computeSpeed(const TrajectoryTable &table, const Trajectory &trajectory,
+                  const SlaveLimits &limits, uint32_t piece, Speeds &speeds) noexcept;
+
 /// The speed that is allowed everywhere (GetMinimumConstantSpeed). [mm/s]
 double constantSpeed(const Trajectory &trajectory, const Speeds &speeds) noexcept;
 

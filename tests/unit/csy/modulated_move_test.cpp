@@ -69,4 +69,47 @@ TEST(CsyModulatedMove, RefusesWhatIsNotOnThePath) {
   EXPECT_TRUE(advance(*move, 0).done);
 }
 
+TEST(CsyModulatedMove, BrakesToRestWhereverItIs) {
+  const auto trajectory = threeLines();
+  const double speed[] = {20, 10, 40};
+  auto move = std::make_unique<ModulatedMove>();
+  ASSERT_TRUE(beginMove(*trajectory, speed, {0, 100, 50}, 0, 250, *move));
+  EXPECT_EQ(brake(*move, 50, 0.01).position, 0.0); // not begun yet
+  EXPECT_TRUE(brake(*move, 50, 0.01).done);
+  while (advance(*move, 1e-3).velocity < 19.999) {
+  }
+  const double at = move->position;
+  MasterState state{};
+  int steps = 0;
+  do
+    state = brake(*move, 80, 0.004);
+  while (++steps < 1000 && !state.done);
+  EXPECT_EQ(steps, 63); // 0.25 s
+  EXPECT_NEAR(state.position, at + 20.0 * 20.0 / 160.0, 1e-9);
+  EXPECT_EQ(state.velocity, 0.0);
+  EXPECT_EQ(brake(*move, 80, 0.004).position, state.position);
+  // From there another move goes on.
+  ASSERT_TRUE(beginMove(*trajectory, speed, {0, 100, 50}, state.position, 250, *move));
+  durationOf(*move);
+  EXPECT_EQ(move->position, 250.0);
+}
+
+TEST(CsyModulatedMove, BrakesNoFurtherThanItsTarget) {
+  const auto trajectory = threeLines();
+  const double speed[] = {20, 10, 40};
+  for (const double deceleration : {50.0, 49.0, 5.0}) { // as the move, and less
+    auto move = std::make_unique<ModulatedMove>();
+    ASSERT_TRUE(beginMove(*trajectory, speed, {0, 100, 50}, 240, 30, *move));
+    while (advance(*move, 1e-3).position > 31) {
+    }
+    MasterState state{};
+    do
+      state = brake(*move, deceleration, 0.004);
+    while (!state.done);
+    EXPECT_GE(state.position, 30.0);
+    EXPECT_LT(state.position, 30.0 + 1e-9);
+    EXPECT_EQ(state.velocity, 0.0);
+  }
+}
+
 } // namespace

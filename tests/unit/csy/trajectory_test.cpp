@@ -219,6 +219,48 @@ TEST(CsyTrajectory, FillsCamsWithTheEndsOfAllPieces) {
   }
 }
 
+std::vector<CamPoint> loopOf(const Trajectory &trajectory) {
+  std::vector<CamPoint> points(loopPoints(trajectory));
+  CamCursor cursor{};
+  for (CamPoint &point : points)
+    point = nextCamPoint(trajectory, cursor);
+  return points;
+}
+
+TEST(CsyTrajectory, LeadsTheSlavesOfAnOpenPathBack) {
+  const Path path = pathOf({line(1, 2), line(4, 6)});
+  const std::vector<CamPoint> points = loopOf(*path.trajectory);
+  ASSERT_EQ(points.size(), 2U + kSpareCamPoints);
+  EXPECT_EQ(points[1].master, 5.0);
+  EXPECT_EQ(points[1].slave.x, 4.0);
+  for (int i = 1; i <= 5; ++i) {
+    EXPECT_NEAR(points[static_cast<size_t>(1 + i)].master, 5.0 + i, 1e-12);
+    EXPECT_NEAR(points[static_cast<size_t>(1 + i)].slave.x, 4.0 - 0.6 * i, 1e-12);
+    EXPECT_NEAR(points[static_cast<size_t>(1 + i)].slave.y, 6.0 - 0.8 * i, 1e-12);
+  }
+  EXPECT_EQ(points.back().slave.x, points.front().slave.x);
+  EXPECT_EQ(points.back().slave.y, points.front().slave.y);
+}
+
+TEST(CsyTrajectory, ClosesACamWhereThePathCloses) {
+  const Path path = manualsPath();
+  const std::vector<CamPoint> points = loopOf(*path.trajectory);
+  ASSERT_EQ(points.size(), path.trajectory->camPoints);
+  EXPECT_EQ(points.back().master, path.trajectory->length);
+  EXPECT_EQ(points.back().slave.x, points.front().slave.x);
+  EXPECT_EQ(points.back().slave.y, points.front().slave.y);
+  // A tool that ends with another angle does not close it.
+  PathPoint start{.type = 100};
+  PathPoint there{.x = 10, .z = 30};
+  PathPoint back{.x = 0, .z = 210};
+  const Path withTool = pathOf({start, there, back}, 3);
+  EXPECT_FALSE(isClosed(*withTool.trajectory));
+  const std::vector<CamPoint> tool = loopOf(*withTool.trajectory);
+  EXPECT_EQ(tool.size(), 3U + kSpareCamPoints);
+  EXPECT_EQ(tool.back().master, 20.0 + 180.0);
+  EXPECT_EQ(tool.back().slave.z, 30.0);
+}
+
 struct Refusal {
   const char *name;
   PathError error;
