@@ -34,7 +34,11 @@ const Type *checkAdr(Context &c, CallExpr *expr) {
     c.report(Code::WrongArgumentType, place->span,
              "`" + calleeName(expr) + "` needs a variable here, not a literal",
              "it has no place in memory")
-        .help("declare `text : " + typeName(place->type) + " := …;` in VAR, and take its address");
+        .help("declare `value : " +
+              (place->type->kind == TypeKind::AnyInteger ? "DINT"
+               : place->type->kind == TypeKind::AnyReal  ? "LREAL"
+                                                         : typeName(place->type)) +
+              " := …` in VAR, and take its address");
     return elementaryType(TypeKind::Error);
   }
   if (!isPlace || isEnumerator)
