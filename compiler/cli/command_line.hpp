@@ -35,6 +35,7 @@ struct Invocation {
   PlotOptions plot;
   ExportOptions exporting;
   CamOptions cams;
+  CsyPathOptions csyPath;
   CncOptions cnc;
   CanOptions can;
   ImportOptions import;
@@ -61,6 +62,8 @@ void declareExports(CLI::App &app, Invocation &call);
 void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.
 void declareCams(CLI::App &app, Invocation &call);
+/// The commands below `stride csy`.
+void declareCsy(CLI::App &app, Invocation &call);
 void declareCnc(CLI::App &app, Invocation &call);
 /// The commands below `stride can`.
 void declareCan(CLI::App &app, Invocation &call);

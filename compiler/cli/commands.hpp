@@ -127,6 +127,14 @@ int plotCommand(const PlotOptions &options);
 int installLibraryCommand(const ProjectOptions &options, bool replace);
 int listLibrariesCommand();
 
+/// stride csy path
+struct CsyPathOptions {
+  std::string file;
+  std::string plot; ///< SVG file to write; empty: none
+  Output output;
+};
+int csyPathCommand(const CsyPathOptions &options);
+
 /// What `stride cam` does.
 enum class CamAction { Check, Bounds, Plot, ExportTable, ImportTable, Reduce, Write, Read };
 

@@ -241,7 +241,7 @@ int run(int argc, char **argv) {
   for (const auto declare :
        {declareNew, declareImports, declareCheck, declareBuild, declareRuns, declareDoc,
         declareTest, declareFmt, declarePlot, declareExports, declareCams, declareCnc, declareCan,
-        declareLibraries, declareExplain, declareCompletion, declareHelp})
+        declareCsy, declareLibraries, declareExplain, declareCompletion, declareHelp})
     declare(app, call);
   try {
     app.parse(argumentsOf(argc, argv));

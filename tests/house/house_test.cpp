@@ -62,6 +62,8 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"compiler/assets/cnc",
        {"compiler/syntax", "compiler/source", "runtime/numeric/", "runtime/iec"}},
       {"compiler/assets/cnc_edit", {"compiler/assets/cnc", "compiler/source", "runtime/numeric/"}},
+      {"compiler/assets/csy",
+       {"compiler/toml", "compiler/source", "runtime/numeric/", "runtime/common"}},
       {"compiler/assets/eds", {}},
       {"compiler/assets/dxf",
        {"compiler/assets/cnc_edit", "compiler/assets/cnc", "compiler/source", "runtime/numeric/"}},

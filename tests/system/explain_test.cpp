@@ -204,7 +204,7 @@ bool needsNoExample(const std::string &code) {
       "SE0101", "SE0102", "SE0114", "SE0117", "SE0118", "SE0119", "SE0830", "SE0831",
       "SE0832", "SE0833", "SE0834", "SE0835", "SE0836", "SE0837", "SE0838", "SE0839",
       "SE0853", "SE0856", "SE0857", "SE0815", "SE0816", "SE0892", "SE0893", "SE0894",
-      "SE0895", "SE0896", "SE0897", "SE0990", "SE0991"};
+      "SE0895", "SE0896", "SE0897", "SE0898", "SE0990", "SE0991"};
   return kCodes.contains(code);
 }
 
