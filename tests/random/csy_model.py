@@ -15,7 +15,7 @@ Readings that are accepted, because neither manual nor docs/csy.md decides:
 - CH_ERROR after a refused command or parameter (APPLI_FLT), until the next good one.
 - Power that goes away in motion: the axis is at rest at once, or by a ramp.
 - A move of 513 goes on in manual mode or not, and lets jogs and increments take over or not.
-- An increment goes on when manual mode ends, or stops.
+- An increment or jog goes on when manual mode ends, or stops; hold keeps it for CONTROL_RESUME, or ends it.
 - Beyond a limit, after the fault is cleared, AXIS_POS_LIMIT and AXIS_NEG_LIMIT are TRUE or not; a jog outwards stops at once.
 - PROFILE_END in manual mode. Input bits one cycle after the set position, or with it.
 """
@@ -56,7 +56,8 @@ class Judge(Motion):
         self.edge_enable = -10**6
         self.since = dict.fromkeys(OUTPUTS, 0)  # cycle of the last change
         self.move = None  # dict: target, speed, start, begin, clean
-        self.held = self.resumed = False
+        self.held = self.resumed = self.manual_held = self.jog_began_able = self.edge_ok = False
+        self.manual_resumed = 0  # the cycle
         self.top = 0.0  # greatest speed that was allowed since the axis was last at rest
         self.quiet = 0  # cycles at rest
         self.last_stop = -10**6
@@ -189,7 +190,7 @@ class Judge(Motion):
         rest = self.v[cycle - 1] == 0 and self.v[cycle - 2] == 0
         self.move = {"target": asked[P3], "speed": speed, "start": self.p[cycle - 1], "begin": cycle, "rest": rest,
                      "clean": rest and not outside and not stopped and not self.held, "stopped": stopped, "outside": outside}
-        self.held, self.resumed = not out["ALLOW_RESUME"], False
+        self.held, self.resumed, self.manual_held = not out["ALLOW_RESUME"], False, False
         self.inc = None
         self.cause = cycle
 
@@ -231,8 +232,8 @@ class Judge(Motion):
         got = self.bit(cycle, "CH_ERROR", None if refused and not self.fault else self.fault)
         if self.fault is None and not (got and refused):
             if before is False and got and out["ALLOW_NOT_FLT"]:  # only a limit can have done this
-                which = "AXIS_POS_LIMIT" if 2 * self.p[cycle] > self.module["POSITION_MAX"] + self.module["POSITION_MIN"] else "AXIS_NEG_LIMIT"
-                self.bit(cycle, which, True)
+                middle = (self.module["POSITION_MAX"] + self.module["POSITION_MIN"]) / 2
+                self.bit(cycle, "AXIS_POS_LIMIT" if self.p[cycle] > middle else "AXIS_NEG_LIMIT", True)
             self.fault = got
 
     def stops(self, cycle, rising):
@@ -246,12 +247,16 @@ class Judge(Motion):
         if self.move and not out["ALLOW_RESUME"]:
             self.held, self.resumed, self.move["clean"] = True, False, False
             self.move["begin"] = cycle
+        elif not self.move and not out["ALLOW_RESUME"] and self.quiet <= 3:
+            self.manual_held = True
+        elif self.manual_held and out["ALLOW_RESUME"] and "CONTROL_RESUME" in rising:
+            self.manual_held, self.manual_resumed = False, cycle
         elif self.move and self.held and "CONTROL_RESUME" in rising:
             self.held, self.resumed = False, True
             self.move["begin"], self.move["way"] = cycle, abs(self.p[cycle - 1] - self.move["target"])
         if over:
-            self.held = self.resumed = False
-            self.inc = None
+            self.held = self.resumed = self.manual_held = False
+            self.inc, self.manual_resumed = None, 0
 
     def end_move(self, cycle):
         self.move, self.held, self.resumed = None, False, False
@@ -290,7 +295,7 @@ class Judge(Motion):
             self.edge_ok = False
         elif age == 0:
             self.edge_ok = True
-        if age > POWER_CYCLES and getattr(self, "edge_ok", False):
+        if age > POWER_CYCLES and self.edge_ok:
             self.bit(cycle, "DRIVE_ENABLED", True)
         if not out["ALLOW_ENABLE"] and cycle - self.since["ALLOW_ENABLE"] > POWER_CYCLES and self.quiet > POWER_CYCLES:
             self.bit(cycle, "DRIVE_ENABLED", False)
@@ -302,7 +307,7 @@ class Judge(Motion):
         if not able and cycle - max(self.since.values()) > 2:
             self.bit(cycle, "AXIS_READY", False)
         elif able and allowed and before and not out["OPERATION_MODE_1"] and cycle - self.last_stop > 2 and at_rest and (
-                not self.held and cycle - self.since["OPERATION_MODE_1"] > 2):
+                not self.held and not self.manual_held and cycle - self.since["OPERATION_MODE_1"] > 2):
             self.bit(cycle, "AXIS_READY", True)
 
     def motion_bits(self, cycle):
@@ -341,15 +346,20 @@ class Judge(Motion):
         following = min(cycle + 1, len(self.v) - 1)
         moving = self.quiet == 0 and self.v[following] != 0
         calm = lambda name: cycle - self.since[name] > 2
-        for name, permission in (("AXIS_HALT", "ALLOW_MOVE"), ("AXIS_FASTSTOP", "ALLOW_NOT_FASTSTOP"), ("AXIS_HOLD", "ALLOW_RESUME")):
+        for name, permission in (("AXIS_HALT", "ALLOW_MOVE"), ("AXIS_FASTSTOP", "ALLOW_NOT_FASTSTOP"),
+                                 ("AXIS_HOLD", "ALLOW_RESUME")):
             if moving and self.v[cycle - 1] != 0 and self.v[cycle - 2] != 0:
                 self.bit(cycle, name, False)
             elif able and at_rest and not out[permission] and calm(permission):
                 self.bit(cycle, name, True)
         move = self.move
-        self.bit(cycle, "HOLDING", False if moving and self.v[cycle - 2] != 0 or not move and out["ALLOW_RESUME"] and at_rest and
-                 calm("ALLOW_RESUME") else True if move and self.held and at_rest and able and not out["ALLOW_RESUME"] and
-                 calm("ALLOW_RESUME") and abs(self.p[cycle] - move["target"]) > 1e-3 else None)
+        holding = None
+        if moving and self.v[cycle - 2] != 0 or not move and out["ALLOW_RESUME"] and at_rest and not self.manual_held:
+            holding = False
+        elif move and self.held and at_rest and able and not out["ALLOW_RESUME"] and calm("ALLOW_RESUME") and (
+                abs(self.p[cycle] - move["target"]) > 1e-3):
+            holding = True
+        self.bit(cycle, "HOLDING", holding)
         if move and self.resumed and able and moving and self.v[cycle - 2] != 0:
             self.bit(cycle, "RESUMING", True)
         elif not self.resumed and cycle - self.since["CONTROL_RESUME"] > 2 and at_rest:
@@ -357,7 +367,7 @@ class Judge(Motion):
         if not able or self.seen(cycle, "AXIS_MANUAL_MODE") or out["OPERATION_MODE_1"]:
             return
         if not move:
-            if at_rest and cycle - max(self.since.values()) > 3:
+            if at_rest and cycle - max(self.since.values()) > 3 and not self.manual_held:
                 self.bit(cycle, "PROFILE_END", True)
             return
         gaps = [abs(self.p[i] - move["target"]) for i in (cycle - 1, cycle)]

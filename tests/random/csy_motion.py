@@ -48,7 +48,8 @@ class Motion:
         if edges and on:
             sign = 1 if "CONTROL_INC_POS" in edges else -1
             clean = able and at_rest and not jog and not self.move
-            self.inc = {"begin": cycle, "target": self.p[cycle - 1] + sign * self.asked[REMOTE], "clean": clean}
+            way = self.asked[REMOTE] + (self.inc["way"] if self.inc and not at_rest else 0)
+            self.inc = {"way": way, "begin": cycle, "target": self.p[cycle - 1] + sign * self.asked[REMOTE], "clean": clean}
             self.cause = cycle
         if self.inc:
             self.increment(cycle, speed)
@@ -56,7 +57,7 @@ class Motion:
 
     def increment(self, cycle, speed):
         inc, limits = self.inc, self.module
-        bound = (self.asked[REMOTE] / speed + 4 * speed / self.lowest()) / CYCLE_S + 8
+        bound = (inc["way"] / speed + 4 * speed / self.lowest()) / CYCLE_S + 8
         outside = limits["FUNCTION_VALIDATION"] & 1 and not limits["POSITION_MIN"] <= inc["target"] <= limits["POSITION_MAX"]
         if cycle - inc["begin"] < bound:
             self.cause = cycle
@@ -73,6 +74,10 @@ class Motion:
         if self.quiet > 2:
             self.top = 0.0
         allowed = 0.0
+        if self.manual_resumed and (self.quiet <= 3 or cycle - self.manual_resumed < 6):
+            self.cause, allowed = cycle, self.sequence.manual_speed
+        else:
+            self.manual_resumed = 0
         if self.move and not self.held:
             allowed = self.move["speed"]
             self.cause = cycle

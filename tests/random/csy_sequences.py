@@ -183,7 +183,8 @@ def driver():
             f"{OUT}: m := DINT_TO_DWORD(n);"]
     out += [f"  ch.{name} := m.{i};" for i, name in enumerate(OUTPUTS)]
     out += [f"{SET}: CASE n OF"]
-    out += [f"  {register}: ch.{name} := {'REAL_TO_INT(v)' if name in INTEGERS else 'v'};" for name, register in PARAMETERS.items()]
+    out += [f"  {register}: ch.{name} := {'REAL_TO_INT(v)' if name in INTEGERS else 'v'};"
+            for name, register in PARAMETERS.items()]
     out += ["  END_CASE", f"{ASK}: CASE n OF"]
     out += [f"  {i}: ok := {name}(ch);" for i, name in enumerate(EXCHANGES)]
     out += ["  END_CASE", "  given := given * 4 + 2; IF ok THEN given := given + 1; END_IF",

@@ -51,7 +51,8 @@ def show(seed, sequence, found, all_of_them):
     before = [event for event in sequence.events if event[0] <= found[0][0]][-12:]
     outputs = csy_sequences.OUTPUTS
     for cycle, kind, number, value in before:
-        what = ("outputs", "parameter", "exchange", "action", "PARAM_CMD_1", "PARAM_CMD_3", "PARAM_CMD_4", "REMOTE_POSITION")[kind]
+        what = ("outputs", "parameter", "exchange", "action", "PARAM_CMD_1", "PARAM_CMD_3", "PARAM_CMD_4",
+                "REMOTE_POSITION")[kind]
         text = " ".join(name for i, name in enumerate(outputs) if number >> i & 1) if kind == csy_sequences.OUT else (
             csy_sequences.EXCHANGES[number] if kind == csy_sequences.ASK else f"{number} {value}")
         print(f"  {cycle}: {what} {text}")
@@ -63,8 +64,9 @@ def check(options, seeds):
     folder = options.keep / f"csy{seeds[0]}"
     names = csy_sequences.write(folder, sequences)
     trace = folder / "trace.csv"
-    result = subprocess.run([options.stride, "sim", str(folder), "--for", f"T#{csy_sequences.CYCLES * 4}ms", "--trace", ",".join(names),
-                             "--out", str(trace), "-W", "off=lints"], capture_output=True, text=True, check=False)
+    time = f"T#{csy_sequences.CYCLES * 4}ms"
+    result = subprocess.run([options.stride, "sim", str(folder), "--for", time, "--trace", ",".join(names), "--out", str(trace),
+                             "-W", "off=lints"], capture_output=True, text=True, check=False)
     if result.returncode:
         print(f"{folder}: {result.stderr[:3000]}")
         return 0
