@@ -58,6 +58,7 @@ class Judge(Motion):
         self.move = None  # dict: target, speed, start, begin, clean
         self.held = self.resumed = self.manual_held = self.jog_began_able = self.edge_ok = False
         self.manual_resumed = 0  # the cycle
+        self.fault_by_answer = -1  # the cycle of a fault that the answer could not know
         self.top = 0.0  # greatest speed that was allowed since the axis was last at rest
         self.quiet = 0  # cycles at rest
         self.last_stop = -10**6
@@ -180,7 +181,7 @@ class Judge(Motion):
         manual = out["OPERATION_MODE_1"] or self.seen(cycle, "AXIS_MANUAL_MODE")
         recent = any(cycle - self.since[name] < 3 for name in OUTPUTS)
         open_answer = outside or fast or stopped or manual or recent or self.held or not self.seen(cycle - 1, "AXIS_READY")
-        if must_fail and not error and not recent:
+        if must_fail and not error and not recent and self.fault_by_answer != cycle:
             self.say(cycle, "ERROR_CMD of 513 that must fail", "not 0", error)
         if not must_fail and error and not open_answer:
             self.say(cycle, "ERROR_CMD of 513", 0, error)
@@ -229,6 +230,11 @@ class Judge(Motion):
             self.edge_enable = cycle
         row = self.rows[cycle]
         refused = row["report"] & 6 or row["parameter"] or self.rows[cycle - 1]["report"] & 6
+        asked_in_stop = any(one[0] == 1 and one[1][ACTION] == 513 for one in self.pending) and (
+            self.v[cycle - 1] != 0 and cycle - self.last_stop < 400)
+        if asked_in_stop and not refused and self.fault is False and self.seen(cycle, "CH_ERROR"):
+            self.say(cycle, "fault by 513 during a stop", "ERROR_CMD, or a move", "accepted, and a fault")
+            self.fault, self.fault_by_answer = True, cycle
         got = self.bit(cycle, "CH_ERROR", None if refused and not self.fault else self.fault)
         if self.fault is None and not (got and refused):
             if before is False and got and out["ALLOW_NOT_FLT"]:  # only a limit can have done this
@@ -352,6 +358,8 @@ class Judge(Motion):
                 self.bit(cycle, name, False)
             elif able and at_rest and not out[permission] and calm(permission):
                 self.bit(cycle, name, True)
+            elif name != "AXIS_HOLD" and out[permission] and self.move and not self.move["stopped"] and calm(permission) and able:
+                self.bit(cycle, name, False)
         move = self.move
         holding = None
         if moving and self.v[cycle - 2] != 0 or not move and out["ALLOW_RESUME"] and at_rest and not self.manual_held:

@@ -78,7 +78,7 @@ class Sequence:
     def move(self):
         chance = self.chance
         self.add(P1, chance.choice([0] * 9 + [3]))
-        self.add(P3, 0, chance.choice([0.0, 12.5, 37.5, -22.25, 55.0, chance.randint(-200, 300) / 8]))
+        self.add(P3, 0, chance.choice([0.0, 12.5, 37.5, -22.25, 55.0, -45.0, chance.randint(-200, 300) / 8]))
         self.add(P4, 0, chance.choice([10.0, 22.5, 40.0, 40.0, 60.0]))
         self.add(ACTION, 513)
         self.add(ASK, 1)
