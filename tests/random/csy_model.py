@@ -58,7 +58,7 @@ class Judge(Motion):
         self.move = None  # dict: target, speed, start, begin, clean
         self.held = self.resumed = self.manual_held = self.jog_began_able = self.edge_ok = False
         self.manual_resumed = 0  # the cycle
-        self.fault_by_answer = -1  # the cycle of a fault that the answer could not know
+        self.late_refusal = -1  # the cycle of a command that was accepted, and yet a fault
         self.top = 0.0  # greatest speed that was allowed since the axis was last at rest
         self.quiet = 0  # cycles at rest
         self.last_stop = -10**6
@@ -181,11 +181,13 @@ class Judge(Motion):
         manual = out["OPERATION_MODE_1"] or self.seen(cycle, "AXIS_MANUAL_MODE")
         recent = any(cycle - self.since[name] < 3 for name in OUTPUTS)
         open_answer = outside or fast or stopped or manual or recent or self.held or not self.seen(cycle - 1, "AXIS_READY")
-        if must_fail and not error and not recent and self.fault_by_answer != cycle:
+        if must_fail and not error and not recent:
             self.say(cycle, "ERROR_CMD of 513 that must fail", "not 0", error)
         if not must_fail and error and not open_answer:
             self.say(cycle, "ERROR_CMD of 513", 0, error)
-        if error:
+        if self.late_refusal != cycle:
+            self.late_refusal = -1
+        if error or self.late_refusal == cycle:
             return
         speed = min(asked[P4], limits["SPEED_MAX"] or asked[P4])
         rest = self.v[cycle - 1] == 0 and self.v[cycle - 2] == 0
@@ -233,8 +235,9 @@ class Judge(Motion):
         asked_in_stop = any(one[0] == 1 and one[1][ACTION] == 513 for one in self.pending) and (
             self.v[cycle - 1] != 0 and cycle - self.last_stop < 400)
         if asked_in_stop and not refused and self.fault is False and self.seen(cycle, "CH_ERROR"):
-            self.say(cycle, "fault by 513 during a stop", "ERROR_CMD, or a move", "accepted, and a fault")
-            self.fault, self.fault_by_answer = True, cycle
+            self.say(cycle, "fault by 513 during a stop", "ERROR_CMD, or a move", "accepted, and CH_ERROR")
+            self.late_refusal = cycle
+        refused = refused or self.late_refusal >= 0
         got = self.bit(cycle, "CH_ERROR", None if refused and not self.fault else self.fault)
         if self.fault is None and not (got and refused):
             if before is False and got and out["ALLOW_NOT_FLT"]:  # only a limit can have done this
@@ -329,7 +332,7 @@ class Judge(Motion):
             if all(abs(a) < 1e-6 for a in accelerations):
                 for name, expected in (("RAMPING", False), ("STEADY", True), ("STOPPING", False)):
                     self.bit(cycle, name, expected)
-            elif all(v * a > 1e-3 for v, a in zip(speeds, accelerations)):
+            elif all(v * a > 0.3 * abs(v) * self.module["ACCEL"] for v, a in zip(speeds, accelerations)):
                 stopped = cycle - self.last_stop < 400 or self.held or self.seen(cycle, "AXIS_MANUAL_MODE")
                 for name, expected in (("RAMPING", True), ("STEADY", False), ("STOPPING", None if stopped else False)):
                     self.bit(cycle, name, expected)

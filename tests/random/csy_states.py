@@ -26,7 +26,7 @@ KNOWN = {
     ("RESUMING", False): "TRUE at rest, after a second hold",
     ("RESUMING", True): "FALSE in a resumed move, after another edge of CONTROL_RESUME",
     ("STOPPING", True): "FALSE while a move comes to its end",
-    ("fault by 513 during a stop", "ERROR_CMD, or a move"): "accepts it, AXIS_READY is TRUE, and then it is a fault",
+    ("fault by 513 during a stop", "ERROR_CMD, or a move"): "accepted, not carried out, and CH_ERROR",
     ("PARAM_RPT", "65 in its high byte"): "names ACCEL_UNIT where POSITION_UNIT is wrong",
 }
 
