@@ -313,7 +313,7 @@ class Judge(Motion):
             self.bit(cycle, "AXIS_SUMMARY_FLT", False)
         able = self.acquired and enabled and self.fault is False
         allowed = out["ALLOW_ENABLE"] and out["ALLOW_MOVE"] and out["ALLOW_NOT_FASTSTOP"] and out["ALLOW_RESUME"]
-        if not able and cycle - max(self.since.values()) > 2:
+        if not able and self.fault is not None and cycle - max(self.since.values()) > 2:
             self.bit(cycle, "AXIS_READY", False)
         elif able and allowed and before and not out["OPERATION_MODE_1"] and cycle - self.last_stop > 2 and at_rest and (
                 not self.held and not self.manual_held and cycle - self.since["OPERATION_MODE_1"] > 2):
