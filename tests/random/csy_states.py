@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Random sequences at axes of TSX CSY 85 modules, run by the built `stride`, against the rules of csy_model.py.
 
-usage: csy_states.py STRIDE [--seeds FIRST..LAST] [--keep FOLDER] [--all] [--known]
+usage: csy_states.py STRIDE [--seeds FIRST..LAST] [--keep FOLDER] [--all]
 
 A seed is a sequence at one imaginary axis: permissions, edges, moves, stops, manual mode, exchanges of commands and parameters.
 Twenty axes, four to a module, make a project. The first difference of a sequence is printed (with --all: each), with its seed,
-its cycle, what was expected and got, and the events before it. With --known, differences that wait for a decision
-(KNOWN) do not count. What the specification leaves open: see csy_model.py.
+its cycle, what was expected and got, and the events before it. What the specification leaves open: see csy_model.py.
 """
 import argparse
 import csv
@@ -20,15 +19,6 @@ import csy_model
 import csy_sequences
 
 AXES = 20
-# What differs from the specification and waits to be mended: the bit, and what was expected.
-KNOWN = {
-    ("AXIS_HOLD", False): "TRUE while the axis still moves",
-    ("RESUMING", False): "TRUE at rest, after a second hold",
-    ("RESUMING", True): "FALSE in a resumed move, after another edge of CONTROL_RESUME",
-    ("STOPPING", True): "FALSE while a move comes to its end",
-    ("fault by 513 during a stop", "ERROR_CMD, or a move"): "accepted, not carried out, and CH_ERROR",
-    ("PARAM_RPT", "65 in its high byte"): "names ACCEL_UNIT where POSITION_UNIT is wrong",
-}
 
 
 def rows_of(path, count):
@@ -74,10 +64,6 @@ def check(options, seeds):
     good = 0
     for i, (seed, rows) in enumerate(zip(seeds, rows_of(trace, len(seeds)))):
         found = csy_model.Judge(sequences[i], 9 + i % 4, rows).run()
-        for key in {one[1:3] for one in found if one[1:3] in KNOWN} if options.known else ():
-            options.told.add(key)
-        if options.known:
-            found = [one for one in found if one[1:3] not in KNOWN]
         if found:
             show(seed, sequences[i], found, options.all)
         good += not found
@@ -90,16 +76,12 @@ def main():
     parser.add_argument("--seeds", default="1..60")
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--all", action="store_true")
-    parser.add_argument("--known", action="store_true")
     options = parser.parse_args()
-    options.told = set()
     first, _, last = options.seeds.partition("..")
     seeds = list(range(int(first), int(last or first) + 1))
     with tempfile.TemporaryDirectory() as folder:
         options.keep = options.keep or pathlib.Path(folder)
         good = sum(check(options, seeds[i:i + AXES]) for i in range(0, len(seeds), AXES))
-    for name, expected in sorted(options.told, key=str):
-        print(f"known: {name} {KNOWN[name, expected]}")
     print(f"{good} of {len(seeds)} sequences agree")
     return 0 if good == len(seeds) else 1
 
