@@ -39,7 +39,10 @@ std::optional<uint32_t> moduleAt(const Context &c, uint32_t rack, uint32_t slot)
 std::optional<Named> named(const Context &c, const DirectAddress &address) {
   const std::span<const uint32_t> numbers = address.numbers;
   const auto channelOf = [](uint32_t number) {
-    return number == DirectAddress::kModule ? csy::kModuleChannel : number;
+    // The number that stands for MOD is none of a channel.
+    return number == DirectAddress::kModule ? csy::kModuleChannel
+           : number == csy::kModuleChannel  ? csy::kModuleChannel + 1
+                                            : number;
   };
   if (numbers.size() >= 3)
     if (const auto module = moduleAt(c, numbers[0], numbers[1]))
@@ -126,8 +129,9 @@ std::optional<csy::Register> registerOf(const DirectAddress &address, const Name
         row.type != (bitOfWord ? csy::RegisterType::Bool : typeOf(address.size)))
       continue;
     if (found.word == csy::kNoWord) {
-      const uint32_t bit = rest[0] == DirectAddress::kError ? csy::kErrorBit : rest[0];
-      if (row.bit == bit && address.size == 'X')
+      const bool isError = row.bit == csy::kErrorBit;
+      if (isError == (rest[0] == DirectAddress::kError) && (isError || row.bit == rest[0]) &&
+          address.size == 'X')
         return found;
     } else if (found.word == rest[0] && (!bitOfWord || row.bit == rest[1])) {
       return found;
@@ -163,7 +167,7 @@ std::optional<RegisterPlace> locateRegister(Context &c, const DirectAddress &add
   const std::string text(address.text);
   const uint8_t kind = csy::kindOfChannel(target->channel.number);
   if (kind == 0) {
-    refuse(c, address, "a TSX CSY 85 has no channel " + std::to_string(target->channel.number),
+    refuse(c, address, "`" + text + "` names no channel of a TSX CSY 85",
            "the channels are 0 to 31, and MOD");
     return std::nullopt;
   }

@@ -17,6 +17,7 @@ struct Course {
 };
 
 static_assert(sizeof(Course) <= sizeof(Block::aState));
+static_assert(alignof(Course) <= alignof(uint64_t));
 
 /// iRequest.
 enum Request : int16_t { kGoOn = 0, kMove = 1, kStop = 2, kTake = 3 };
@@ -51,9 +52,14 @@ void st::CSY::CSY_PROFILE::body__(::stride::Ctx & /*ctx__*/) {
     course.state = {fTarget, fVelocity, fAcceleration};
     course.moving = false;
   } else if (iRequest == kMove || iRequest == kStop) {
-    bError = plan(*this, course) == motion::PlanError::None ? 0 : 1;
-    course.moving = bError == 0;
-    course.time = 0.0;
+    // What is refused leaves the motion as it is.
+    Course next = course;
+    bError = plan(*this, next) == motion::PlanError::None ? 0 : 1;
+    if (bError == 0) {
+      course = next;
+      course.moving = true;
+      course.time = 0.0;
+    }
   }
   if (course.moving && iRequest != kTake)
     step(course, fCycle);
