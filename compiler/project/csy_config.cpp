@@ -1,5 +1,6 @@
 #include "compiler/project/csy_config.hpp"
 
+#include "compiler/assets/csy/firmware.hpp"
 #include "compiler/syntax/st_text.hpp"
 
 #include <array>
@@ -56,10 +57,9 @@ constexpr std::array<Choice, 2> kLinks = {{{"gear", 0}, {"cam", 1}}};
 // The numbers are those of bits 8 to 10 of FOLL_DESCRIPTION.
 constexpr std::array<Choice, 5> kStarts = {
     {{"immediate", 0}, {"falling", 1}, {"rising", 2}, {"above", 3}, {"below", 4}}};
-constexpr std::array<Choice, 2> kFirmware = {{{"1.1", 60}, {"1.2", 200}}};
 
 /// A parameter and what becomes of it.
-enum class Wording : uint8_t { Integer, Real, Flag, Choice };
+enum class Wording : uint8_t { Integer, Real, Flag, Choice, ChosenFlag };
 struct FieldRow {
   Parameter parameter;
   std::string_view member;
@@ -70,7 +70,7 @@ constexpr Parameter unit(std::string_view name, std::span<const Choice> units) {
   return choice(name, units).defaultsTo(11);
 }
 
-constexpr std::array<FieldRow, 20> kAxisFields = {{
+constexpr std::array<FieldRow, 17> kAxisFields = {{
     {positive("ACCEL", "acceleration").defaultsTo(100), "ACCEL", Wording::Real},
     {positive("DECEL", "acceleration").defaultsTo(100), "DECEL", Wording::Real},
     {choice("ACCEL_TYPE", kShapes).defaultsTo(100), "ACCEL_TYPE", Wording::Choice},
@@ -90,10 +90,10 @@ constexpr std::array<FieldRow, 20> kAxisFields = {{
     {unit("ACCEL_UNIT", kAccelUnits), "ACCEL_UNIT", Wording::Choice},
     {unit("SPEED_UNIT", kSpeedUnits), "SPEED_UNIT", Wording::Choice},
     {unit("POSITION_UNIT", kPositionUnits), "POSITION_UNIT", Wording::Choice},
-    {flag("position_check"), "0", Wording::Flag},
-    {flag("enable_position_check"), "1", Wording::Flag},
-    {flag("modulo"), "2", Wording::Flag},
 }};
+/// By the bits of FUNCTION_VALIDATION.
+constexpr std::array kValidations = {flag("position_check"), flag("enable_position_check"),
+                                     flag("modulo")};
 
 constexpr std::array<FieldRow, 7> kCamFields = {{
     {choice("interpolation", kInterpolations).defaultsTo(0.0), "iInterpolation", Wording::Choice},
@@ -107,8 +107,8 @@ constexpr std::array<FieldRow, 7> kCamFields = {{
 
 constexpr std::array<FieldRow, 12> kSlaveFields = {{
     {whole("channel", 1, 12).needed(), "iChannel", Wording::Integer},
-    {choice("link", kLinks).defaultsTo(0.0), "bCam", Wording::Choice},
-    {choice("position", kPositions).defaultsTo(1), "bSetpoint", Wording::Choice},
+    {choice("link", kLinks).defaultsTo(0.0), "bCam", Wording::ChosenFlag},
+    {choice("position", kPositions).defaultsTo(1), "bSetpoint", Wording::ChosenFlag},
     {anyReal("numerator", "").defaultsTo(1), "fNumerator", Wording::Real},
     {anyReal("denominator", "").defaultsTo(1), "fDenominator", Wording::Real},
     {whole("cam", 25, 31).onlyWith("link", 1), "iCam", Wording::Integer},
@@ -121,7 +121,7 @@ constexpr std::array<FieldRow, 12> kSlaveFields = {{
 }};
 
 constexpr std::array<FieldRow, 6> kModuleFields = {{
-    {choice("firmware", kFirmware).defaultsTo(200), "iMostPoints", Wording::Choice},
+    {kCsyFirmware, "iMostPoints", Wording::Choice},
     {positive("cam_points_per_second", "1/s").defaultsTo(100), "fCamPointsPerSecond",
      Wording::Real},
     {flag("present").defaultsTo(1), "bPresent", Wording::Flag},
@@ -141,7 +141,7 @@ constexpr auto rows(const std::array<FieldRow, Fields> &fields,
   return all;
 }
 
-constexpr auto kAxisRows = rows(kAxisFields, std::array<Parameter, 0>{});
+constexpr auto kAxisRows = rows(kAxisFields, kValidations);
 constexpr SectionSchema kModuleAxisParameters = {
     "parameters", "the parameters of an axis", "csy.axis.parameters", false, kAxisRows, {}};
 constexpr std::array kModuleAxisKeys = {
@@ -182,42 +182,41 @@ constexpr std::array<const SectionSchema *, 4> kCsySections = {
     &kModuleAxis, &kModuleCam, &kModuleFollower, &kModuleCoordinated};
 constexpr SectionSchema kCsy = {"csy", "a module", "csy", true, kCsyKeys, kCsySections};
 
-/// What a section says of the rows, with the rows' defaults where it says nothing.
+/// What a section says of a row, as ST, with the row's default where it says nothing.
+std::string valueOf(const CheckedSection &section, const FieldRow &row) {
+  const std::string_view name = row.parameter.name;
+  const auto otherwise = static_cast<int64_t>(row.parameter.otherwise.number);
+  const auto flag = [](bool value) { return std::string(value ? "TRUE" : "FALSE"); };
+  switch (row.wording) {
+  case Wording::Integer:
+    return fmt::format("{}", section.integer(name, otherwise));
+  case Wording::Real:
+    return realLiteral(section.real(name));
+  case Wording::Choice:
+    return fmt::format("{}", section.choice(name));
+  case Wording::ChosenFlag:
+    return flag(section.choice(name) != 0);
+  case Wording::Flag:
+    return flag(section.boolean(name, otherwise != 0));
+  }
+  return {};
+}
+
 template <size_t Fields>
 CsyFields fieldsOf(const CheckedSection &section, const std::array<FieldRow, Fields> &table) {
   CsyFields fields;
-  int flags = 0;
-  bool hasFlags = false;
-  for (const FieldRow &row : table) {
-    const std::string_view name = row.parameter.name;
-    const bool numbered = row.wording == Wording::Flag && row.member.size() == 1;
-    std::string value;
-    switch (row.wording) {
-    case Wording::Integer:
-      value = fmt::format(
-          "{}", section.integer(name, static_cast<int64_t>(row.parameter.otherwise.number)));
-      break;
-    case Wording::Real:
-      value = realLiteral(section.real(name));
-      break;
-    case Wording::Flag:
-      value = section.boolean(name, row.parameter.otherwise.number != 0) ? "TRUE" : "FALSE";
-      break;
-    case Wording::Choice:
-      value = fmt::format("{}", section.choice(name));
-      if (row.member.starts_with('b'))
-        value = section.choice(name) != 0 ? "TRUE" : "FALSE";
-      break;
-    }
-    if (numbered) {
-      hasFlags = true;
-      flags |= section.boolean(name, false) ? 1 << (row.member.front() - '0') : 0;
-    } else {
-      fields.emplace_back(row.member, value);
-    }
-  }
-  if (hasFlags)
-    fields.emplace_back("FUNCTION_VALIDATION", fmt::format("{}", flags));
+  for (const FieldRow &row : table)
+    fields.emplace_back(row.member, valueOf(section, row));
+  return fields;
+}
+
+/// The parameters of an axis.
+CsyFields parametersOf(const CheckedSection &section) {
+  CsyFields fields = fieldsOf(section, kAxisFields);
+  unsigned bits = 0;
+  for (size_t i = 0; i < kValidations.size(); ++i)
+    bits |= section.boolean(kValidations[i].name, false) ? 1U << i : 0U;
+  fields.emplace_back("FUNCTION_VALIDATION", fmt::format("{}", bits));
   return fields;
 }
 
@@ -263,7 +262,7 @@ private:
     axis.encoder = nameIn(section, "encoder");
     axis.inputs = {{"fManualSpeed", realLiteral(section.real("manual_speed"))}};
     for (const CheckedSection &table : section.sections("parameters", diagnostics_))
-      axis.parameters = fieldsOf(table, kAxisFields);
+      axis.parameters = parametersOf(table);
     constexpr uint32_t kFirstRemote = 13;
     if (axis.channel < kFirstRemote) {
       needs(section, "axis", axis.axis);

@@ -1,5 +1,6 @@
 #include "compiler/assets/csy/path_source.hpp"
 
+#include "compiler/assets/csy/firmware.hpp"
 #include "compiler/toml/schema.hpp"
 
 #include <array>
@@ -31,7 +32,6 @@ constexpr std::array<Choice, 8> kTypes = {{{"line", 0},
                                            {"arc_by_centre", 12},
                                            {"tool", 100},
                                            {"tool_other_side", 101}}};
-constexpr std::array<Choice, 2> kFirmware = {{{"1.1", 60}, {"1.2", 200}}};
 
 constexpr std::array kPointKeys = {
     number("x").needed(),
@@ -55,8 +55,7 @@ constexpr std::array kAxisKeys = {
     notNegative("ACCEL", "mm/s²").defaultsTo(0.0),
     notNegative("DECEL", "mm/s²").defaultsTo(0.0),
 };
-constexpr std::array kPathKeys = {whole("axes", 2, 3).defaultsTo(2),
-                                  choice("firmware", kFirmware).defaultsTo(200)};
+constexpr std::array kPathKeys = {whole("axes", 2, 3).defaultsTo(2), kCsyFirmware};
 constexpr SectionSchema kPoint = {"point", "a point", "point", true, kPointKeys, {}};
 constexpr SectionSchema kX = {"x", "the first axis", "x", false, kAxisKeys, {}};
 constexpr SectionSchema kY = {"y", "the second axis", "y", false, kAxisKeys, {}};
