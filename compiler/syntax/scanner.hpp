@@ -100,7 +100,7 @@ private:
   uint16_t number(size_t begin, Token &token);
   uint16_t quoted(size_t begin, char quote, Token &token);
   uint16_t address(size_t begin, Token &token);
-  [[nodiscard]] size_t afterNumbers(size_t place) const;
+  [[nodiscard]] size_t afterNumbers(size_t place, bool ofWord) const;
   inline uint16_t signOfOthers(size_t begin, Token &token);
   uint16_t sign(size_t begin, Token &token);
   uint16_t foreign(size_t begin, size_t length, uint16_t meant, Token &token);

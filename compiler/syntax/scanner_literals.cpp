@@ -185,7 +185,7 @@ static bool isWholeAddress(std::string_view text) {
 
 /// After the numbers of an address. Those of a module's registers may have `MOD` or `ERR` in place
 /// of a number, and a bit of a word as `%MW1.4.3.0:X3`.
-size_t Scanner::afterNumbers(size_t place) const {
+size_t Scanner::afterNumbers(size_t place, bool ofWord) const {
   const auto isWord = [this](size_t from, std::string_view word) {
     return lowerCase(text_.substr(from, word.size())) == word && !isLetter(at(from + word.size()));
   };
@@ -204,9 +204,13 @@ size_t Scanner::afterNumbers(size_t place) const {
       break;
     }
   }
-  if (points > 1 && at(place) == ':' && lowerCase(at(place + 1)) == 'x' && isDigit(at(place + 2)))
-    for (place += 2; isDigit(at(place));)
-      ++place;
+  if (ofWord && points > 1 && at(place) == ':' && lowerCase(at(place + 1)) == 'x') {
+    size_t end = place + 2;
+    while (isDigit(at(end)))
+      ++end;
+    if (end > place + 2 && !isLetter(at(end))) // else a type that is named like it
+      place = end;
+  }
   return place;
 }
 
@@ -225,7 +229,7 @@ uint16_t Scanner::address(size_t begin, Token &token) {
   if (at(place_) == '*')
     ++place_;
   else
-    place_ = afterNumbers(place_);
+    place_ = afterNumbers(place_, area.size() == 2 && lowerCase(area[1]) == 'w');
   const auto in = [](char c, std::string_view set) {
     return set.find(lowerCase(c)) != std::string_view::npos;
   };
