@@ -43,11 +43,12 @@ def archives(build):
 
 
 def tests(build):
-    """The tests in ctest's order, each with the target of its executable, or with none"""
+    """The tests, each with its number and the target of its executable, or with none."""
     listing = subprocess.run(["ctest", "--test-dir", build, "-N"], capture_output=True, text=True, check=True).stdout
-    names = re.findall(r"^ *Test +#\d+: (\S+)$", listing, flags=re.M)
+    found = re.findall(r"^ *Test +#(\d+): (.+?)(?: \(Disabled\))?$", listing, flags=re.M)
     executables = archives(build)
-    return [(name, base if (base := re.sub(r"\.\d+$", "", name)) in executables else None) for name in names]
+    return [(int(number), name, base if (base := re.sub(r"\.\d+$", "", name)) in executables else None)
+            for number, name in found]
 
 
 def folder_of(name):
@@ -87,11 +88,11 @@ def main():
     if not 0 <= part < parts:
         parser.error(f"there are the parts 0/{parts} to {parts - 1}/{parts}")
     all_tests = tests(options.build)
-    executables = {target for _, target in all_tests if target}
+    executables = {target for _, _, target in all_tests if target}
     sources = own_sources(options.build)
     lately = changed_last(options.build, options.changed, executables, sources) if options.changed else set()
     dealt = deal(executables, sources, parts)
-    chosen = [(number, name, target) for number, (name, target) in enumerate(all_tests, 1)
+    chosen = [(number, name, target) for number, name, target in all_tests
               if target in lately or (dealt[target] if target else zlib.crc32(name.encode()) % parts) == part]
     if not chosen:
         sys.exit("part.py: there are no tests in this part")
