@@ -151,6 +151,17 @@ double quantile(const Times &times, double part) {
   return times[static_cast<size_t>(part * static_cast<double>(times.size()))];
 }
 
+/// What the cycles took, which are sorted, and what was done in them. [us]
+void countCycles(benchmark::State &state, const Times &cycles, uint64_t lines, uint64_t corners) {
+  state.counters["mean_us"] = sumOf(cycles) / kCycles;
+  state.counters["lines"] = static_cast<double>(lines);
+  state.counters["corners"] = static_cast<double>(corners);
+  state.counters["median_us"] = quantile(cycles, 0.5);
+  state.counters["p99_us"] = quantile(cycles, 0.99);
+  state.counters["p999_us"] = quantile(cycles, 0.999);
+  state.counters["p9999_us"] = quantile(cycles, 0.9999);
+}
+
 /// Of each cycle the shortest of all iterations counts, so that what else the machine does does
 /// not.
 void cyclesOfAGroup(benchmark::State &state) {
@@ -179,13 +190,7 @@ void cyclesOfAGroup(benchmark::State &state) {
     cycles[i] = thinking[i] + going[i];
   std::sort(cycles.begin(), cycles.end());
   std::sort(thinking.begin(), thinking.end());
-  state.counters["mean_us"] = sumOf(cycles) / kCycles;
-  state.counters["lines"] = static_cast<double>(lines);
-  state.counters["corners"] = static_cast<double>(corners);
-  state.counters["median_us"] = quantile(cycles, 0.5);
-  state.counters["p99_us"] = quantile(cycles, 0.99);
-  state.counters["p999_us"] = quantile(cycles, 0.999);
-  state.counters["p9999_us"] = quantile(cycles, 0.9999);
+  countCycles(state, cycles, lines, corners);
   // What is beyond the cheapest calls, which find nothing to plan.
   const double idle = quantile(thinking, 0.1);
   state.counters["planning_us_per_line"] =
@@ -228,13 +233,7 @@ void cyclesBesideAPlanner(benchmark::State &state) {
   }
   std::sort(cycles.begin(), cycles.end());
   std::sort(calls.begin(), calls.end());
-  state.counters["mean_us"] = sumOf(cycles) / kCycles;
-  state.counters["lines"] = static_cast<double>(lines);
-  state.counters["corners"] = static_cast<double>(corners);
-  state.counters["median_us"] = quantile(cycles, 0.5);
-  state.counters["p99_us"] = quantile(cycles, 0.99);
-  state.counters["p999_us"] = quantile(cycles, 0.999);
-  state.counters["p9999_us"] = quantile(cycles, 0.9999);
+  countCycles(state, cycles, lines, corners);
   state.counters["call_mean_us"] = sumOf(calls) / static_cast<double>(calls.size());
   state.counters["call_p999_us"] = quantile(calls, 0.999);
 }
