@@ -27,13 +27,14 @@ public:
     for (size_t i = 0; i < chart_.steps.size(); ++i)
       index_[lowerCase(chart_.steps[i].name)] = i;
     number();
+    rank();
     place();
     addNamedTransitions();
     sfc_ = pou_.append_child("body").append_child("SFC");
     for (size_t i = 0; i < chart_.steps.size(); ++i) {
       step(i);
-      for (size_t k = 0; k < chart_.transitions.size(); ++k)
-        if (sourcesOf(k).front() == i)
+      for (const size_t k : leaving_[i])
+        if (sources_[k].front() == i)
           transition(k);
     }
     if (!chart_.comment.empty())
@@ -49,8 +50,6 @@ private:
       out.push_back(index_.at(lowerCase(each)));
     return out;
   }
-  [[nodiscard]] Indices sourcesOf(size_t k) const { return indicesOf(chart_.transitions[k].from); }
-  [[nodiscard]] Indices targetsOf(size_t k) const { return indicesOf(chart_.transitions[k].to); }
 
   /// localIds: of all elements that others refer to.
   void number() {
@@ -61,7 +60,9 @@ private:
     }
     for (size_t k = 0; k < chart_.transitions.size(); ++k) {
       transitionIds_.push_back(next++);
-      for (const size_t each : sourcesOf(k))
+      sources_.push_back(indicesOf(chart_.transitions[k].from));
+      targets_.push_back(indicesOf(chart_.transitions[k].to));
+      for (const size_t each : sources_[k])
         leaving_[each].push_back(k);
     }
     for (const Indices &each : leaving_)
@@ -80,7 +81,7 @@ private:
     for (size_t i = 0; i < chart_.steps.size(); ++i)
       for (size_t n = 0; n < leaving_[i].size(); ++n) {
         const size_t k = leaving_[i][n];
-        const Indices targets = targetsOf(k);
+        const Indices &targets = targets_[k];
         for (size_t branch = 0; branch < targets.size(); ++branch)
           if (const size_t target = targets[branch];
               target > i && entering_[target] == chart_.transitions.size()) {
@@ -173,7 +174,7 @@ private:
 
   void transition(size_t k) {
     const ChartTransitionText &one = chart_.transitions[k];
-    const Indices sources = sourcesOf(k);
+    const Indices &sources = sources_[k];
     const size_t row = sources.front();
     const auto nth = std::ranges::find(leaving_[row], k) - leaving_[row].begin();
     const int column = columns_[row] + static_cast<int>(nth);
@@ -205,7 +206,7 @@ private:
 
   /// Jumps to the steps that no line of the transition leads to.
   void targets(size_t k, int column, size_t row) {
-    const Indices targets = targetsOf(k);
+    const Indices &targets = targets_[k];
     size_t from = transitionIds_[k];
     if (branchIds_[k] != 0) {
       Node node = element("simultaneousDivergence", branchIds_[k], column, row, 100);
@@ -225,22 +226,26 @@ private:
 
   /// Transitions of a step go from left to right; those that share a step, but begin at different
   /// ones, have an order only by numbers.
-  [[nodiscard]] std::string priorityOf(size_t k) const {
-    const auto apart = [&](size_t a, size_t b) {
-      return sourcesOf(a).front() != sourcesOf(b).front();
-    };
+  void rank() {
     const bool numbered = std::ranges::any_of(leaving_, [&](const Indices &all) {
-      return std::ranges::any_of(all, [&](size_t each) { return apart(all.front(), each); });
+      return std::ranges::any_of(all, [&](size_t each) {
+        return sources_[each].front() != sources_[all.front()].front();
+      });
     });
     if (!numbered)
-      return chart_.transitions[k].priority;
+      return;
     Indices order(chart_.transitions.size());
     std::iota(order.begin(), order.end(), size_t{0});
     std::ranges::stable_sort(order, {}, [&](size_t each) {
       const std::string &own = chart_.transitions[each].priority;
       return own.empty() || own.size() > 18 ? UINT64_MAX : std::stoull(own);
     });
-    return std::to_string(std::ranges::find(order, k) - order.begin() + 1);
+    ranks_.resize(order.size());
+    for (size_t i = 0; i < order.size(); ++i)
+      ranks_[order[i]] = i + 1;
+  }
+  [[nodiscard]] std::string priorityOf(size_t k) const {
+    return ranks_.empty() ? chart_.transitions[k].priority : std::to_string(ranks_[k]);
   }
 
   void comment() {
@@ -256,7 +261,10 @@ private:
   std::map<std::string, size_t> index_; ///< of steps, by their names in lower case
   std::vector<size_t> stepIds_;
   std::vector<size_t> transitionIds_;
+  std::vector<Indices> sources_;       ///< of each transition: the steps that it leaves
+  std::vector<Indices> targets_;       ///< and those that it enters
   std::vector<Indices> leaving_;       ///< of each step: its transitions
+  std::vector<size_t> ranks_;          ///< of transitions; empty: their own priorities count
   std::vector<size_t> divergenceIds_;  ///< of each step: 0: it has at most one transition
   std::vector<size_t> convergenceIds_; ///< of each transition: 0: it leaves one step
   std::vector<size_t> branchIds_;      ///< of each transition: 0: it enters one step
