@@ -41,6 +41,23 @@ inline bool hasCaptureInput(const AxisRef &axis, int16_t input) noexcept {
          ((axis.byCaptureInputs >> input) & 1) != 0;
 }
 
+/// Whether a block waits for the input, or has not fetched its result yet.
+inline bool isCaptureClaimed(const AxisRef &axis, int16_t input) noexcept {
+  return ((axis.byCaptureClaimed >> input) & 1) != 0;
+}
+
+/// A block waits for the input, without a window and a latch so far.
+inline void claimCapture(AxisRef &axis, int16_t input) noexcept {
+  axis.aCapture.v[input] = {};
+  axis.byCaptureClaimed = static_cast<uint8_t>(axis.byCaptureClaimed | (1U << input));
+}
+
+/// Nobody waits for the input any more.
+inline void freeCapture(AxisRef &axis, int16_t input) noexcept {
+  axis.aCapture.v[input] = {};
+  axis.byCaptureClaimed = static_cast<uint8_t>(axis.byCaptureClaimed & ~(1U << input));
+}
+
 } // namespace stride::axis
 
 #endif

@@ -30,10 +30,13 @@ void captureForProgram(axis::AxisRef &axis, double position) {
 
 /// The inputs at which somebody waits.
 uint8_t wantedInputs(const axis::AxisRef &axis) {
+  if (axis.byCaptureClaimed == 0 && !programWaits(axis))
+    return 0;
   uint8_t wanted = 0;
   for (size_t i = 0; i < kInputs; ++i) {
-    const auto &capture = axis.aCapture.v[i];
-    if ((capture.bOccupied != 0 && capture.bOccurred == 0) || programWaitsAt(axis, i))
+    const bool blockWaits =
+        axis::isCaptureClaimed(axis, static_cast<int16_t>(i)) && axis.aCapture.v[i].bOccurred == 0;
+    if (blockWaits || programWaitsAt(axis, i))
       wanted = static_cast<uint8_t>(wanted | bit(i));
   }
   return wanted;
@@ -44,14 +47,14 @@ uint8_t wantedInputs(const axis::AxisRef &axis) {
 void readCaptures(axis::AxisRef &axis, const DriveStatus &status) noexcept {
   const uint8_t latched = axis.byCaptureArmed & status.captured;
   axis.byCaptureArmed = axis.byCaptureArmed & static_cast<uint8_t>(~latched);
-  for (size_t i = 0; i < kInputs; ++i) {
+  for (size_t i = 0; latched != 0 && i < kInputs; ++i) {
     if ((latched & bit(i)) == 0)
       continue;
     const double position = axis::positionOf(axis, status.capturedPosition[i]);
     if (programWaitsAt(axis, i))
       captureForProgram(axis, position);
     auto &capture = axis.aCapture.v[i];
-    if (capture.bOccupied == 0 || capture.bOccurred != 0)
+    if (!axis::isCaptureClaimed(axis, static_cast<int16_t>(i)) || capture.bOccurred != 0)
       continue;
     if (capture.bWindow != 0 &&
         !axis::inCaptureWindow(axis, capture.fFirstPosition, capture.fLastPosition, position))
@@ -79,6 +82,7 @@ void writeCaptures(axis::AxisRef &axis, const AxisDriver &driver, size_t drive,
 
 void clearCaptures(axis::AxisRef &axis) noexcept {
   axis.byCaptureArmed = 0;
+  axis.byCaptureClaimed = 0;
   for (auto &capture : axis.aCapture.v)
     capture = {};
 }

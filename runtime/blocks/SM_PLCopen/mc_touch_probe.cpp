@@ -40,7 +40,7 @@ void fail(Block &block, int16_t errorId) noexcept {
 void release(Block &block) noexcept {
   block.TriggerInput->bActive = 0;
   if (block.bFast != 0)
-    block.Axis->aCapture.v[block.byInput] = {};
+    axis::freeCapture(*block.Axis, block.byInput);
 }
 
 bool ownsTrigger(const Block &block) noexcept {
@@ -61,7 +61,7 @@ int16_t refusal(const Block &block) noexcept {
   const int16_t input = axis::captureInput(trigger.iTriggerNumber);
   if (trigger.bFastLatching != 0 && !axis::hasCaptureInput(ref, input))
     return kNoDrive;
-  if (trigger.bActive != 0 || (trigger.bFastLatching != 0 && ref.aCapture.v[input].bOccupied != 0))
+  if (trigger.bActive != 0 || (trigger.bFastLatching != 0 && axis::isCaptureClaimed(ref, input)))
     return kOccupied;
   if (block.WindowOnly != 0 && !axis::isCaptureWindow(ref, block.FirstPosition, block.LastPosition))
     return kNoWindow;
@@ -98,9 +98,8 @@ void start(Block &block) noexcept {
   if (block.bFast == 0)
     return;
   block.byInput = static_cast<uint8_t>(axis::captureInput(trigger.iTriggerNumber));
+  axis::claimCapture(ref, block.byInput);
   auto &capture = ref.aCapture.v[block.byInput];
-  capture = {};
-  capture.bOccupied = 1;
   capture.bWindow = block.bWindow;
   capture.fFirstPosition = block.fFirst;
   capture.fLastPosition = block.fLast;
@@ -128,7 +127,7 @@ void proceed(Block &block) noexcept {
     finish(block, ref.aCapture.v[block.byInput].fPosition);
     return;
   }
-  if (!answers(ref) || (block.bFast != 0 && ref.aCapture.v[block.byInput].bOccupied == 0)) {
+  if (!answers(ref) || (block.bFast != 0 && !axis::isCaptureClaimed(ref, block.byInput))) {
     release(block);
     fail(block, kNoDrive);
     return;
@@ -190,6 +189,6 @@ void st::SM_PLCopen::MC_AbortTrigger::body__(::stride::Ctx & /*ctx__*/) {
   TriggerInput->bActive = 0;
   const int16_t input = axis::captureInput(TriggerInput->iTriggerNumber);
   if (TriggerInput->bFastLatching != 0 && axis::hasCaptureInput(*Axis, input))
-    Axis->aCapture.v[input] = {};
+    axis::freeCapture(*Axis, input);
   Done = 1;
 }

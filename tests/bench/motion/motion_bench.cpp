@@ -139,6 +139,7 @@ BENCHMARK(movingAxes)
     ->Args({1000, 0, 0})
     ->Args({1000, 1, 0})
     ->Args({1000, 0, 1})
+    ->Args({10000, 0, 0})
     ->Unit(benchmark::kMicrosecond);
 
 } // namespace
