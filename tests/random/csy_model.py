@@ -62,6 +62,7 @@ class Judge(Motion):
         self.late_refusal = -1  # the cycle of a command that was accepted, and yet a fault
         self.top = 0.0  # greatest speed that was allowed since the axis was last at rest
         self.quiet = 0  # cycles at rest
+        self.falls = False  # an acceleration after the axis has turned around
         self.rates = [0.0] * 3  # greatest ACCEL, DECEL and DECEL_MAX at their peaks since it was last at rest
         self.last_stop = -10**6
         self.inc, self.checked, self.outside = None, False, 0.0
@@ -339,9 +340,10 @@ class Judge(Motion):
                 for name, expected in (("RAMPING", True), ("STEADY", False), ("STOPPING", None if stopped else False)):
                     self.bit(cycle, name, expected)
             elif all(v * a < -1e-3 for v, a in zip(speeds, accelerations)):
-                self.bit(cycle, "STEADY", False)
-                if not self.seen(cycle, "RAMPING") and not self.seen(cycle, "STOPPING"):
-                    self.say(cycle, "RAMPING or STOPPING", True, False)
+                if all(-v * a > 0.3 * abs(v) * self.lowest() for v, a in zip(speeds, accelerations)):
+                    self.bit(cycle, "STEADY", False)  # not where it only passes the end of a ramp
+                    if not self.seen(cycle, "RAMPING") and not self.seen(cycle, "STOPPING"):
+                        self.say(cycle, "RAMPING or STOPPING", True, False)
                 if self.move and not self.move["stopped"] and not self.held and self.ends_here(cycle):
                     self.bit(cycle, "STOPPING", True)
 
@@ -386,7 +388,7 @@ class Judge(Motion):
         gaps = [abs(self.p[i] - move["target"]) for i in (cycle - 1, cycle)]
         gap = min(gaps)
         band = self.module["IN_POSITION_BAND"] + 1e-5 + self.top * CYCLE_S
-        if cycle - move["begin"] <= 2 or move["outside"]:
+        if cycle - move["begin"] <= 2 or move["outside"] or "taken" in move:
             return
         if gap > band:
             self.bit(cycle, "AXIS_AT_TARGET", False)
