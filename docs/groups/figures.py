@@ -407,20 +407,21 @@ PICTURES = {"belt-scara.svg": (BeltScara, "BeltScara/machine.svg"),
             "packing-portal.svg": (PackingPortal, "PackingPortal/machine.svg")}
 
 
-def main():
+def draw(pictures, script):
+    """Draws them into the folder that the command line names, or says which ones beside the examples are stale: the exit code."""
     stride = sys.argv[1]
     out = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
     stale = []
-    for name, (machine, place) in PICTURES.items():
+    for name, (machine, place) in pictures.items():
         text = machine(stride).svg()
         if out:
             (out / name).write_text(text)
         elif not (EXAMPLES / place).exists() or (EXAMPLES / place).read_text() != text:
             stale.append(place)
     for place in stale:
-        print(f"examples/{place} is not what docs/groups/figures.py draws")
+        print(f"examples/{place} is not what docs/groups/{script} draws")
     return 1 if stale else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(draw(PICTURES, "figures.py"))

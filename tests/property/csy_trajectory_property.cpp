@@ -196,7 +196,8 @@ TEST(CsyTrajectoryProperty, MovesKeepTheMastersLimits) {
     const Path path = randomPath(random);
     computeSpeeds(*path.table, *path.trajectory, {{5, 7, 9}, {20, 30, 40}}, *speeds);
     const MasterLimits limits{random.chance(0.5) ? 0.0 : random.uniform(0.5, 9),
-                              random.magnitude(0, 2), random.magnitude(0, 2)};
+                              random.magnitude(0, 2), random.magnitude(0, 2),
+                              random.chance(0.4) ? 1.0 : 1.0 + 0.25 * (1 + random.below(4))};
     const double from = random.chance(0.5) ? 0 : random.uniform(0, path.trajectory->length);
     const double to =
         random.chance(0.5) ? path.trajectory->length : random.uniform(0, path.trajectory->length);
@@ -209,8 +210,8 @@ TEST(CsyTrajectoryProperty, MovesKeepTheMastersLimits) {
       ASSERT_GE(sign * (now.position - last.position), -1e-9) << seed;
       const double change = sign * (now.velocity - last.velocity) / cycle;
       if (!now.done) {
-        ASSERT_LE(change, limits.acceleration * (1 + 1e-9) + 1e-9) << seed;
-        ASSERT_GE(change, -limits.deceleration * (1 + 1e-9) - 1e-9) << seed;
+        ASSERT_LE(change, limits.shape * limits.acceleration * (1 + 1e-9) + 1e-9) << seed;
+        ASSERT_GE(change, -limits.shape * limits.deceleration * (1 + 1e-9) - 1e-9) << seed;
         // Between two pieces either may speak.
         double most = 0;
         for (const double place : {now.position - 1e-7, now.position + 1e-7}) {

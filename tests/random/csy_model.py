@@ -14,7 +14,8 @@ Readings that are accepted, because neither manual nor docs/csy.md decides:
 - RAMPING while STOPPING; STOPPING from the stop's beginning, while the jerk still lets the axis gain speed.
 - CH_ERROR after a refused command or parameter (APPLI_FLT), until the next good one.
 - Power that goes away in motion: the axis is at rest at once, or by a ramp.
-- A move of 513 goes on in manual mode or not, and lets jogs and increments take over or not.
+- A move of 513 goes on in manual mode or not, and lets jogs and increments take over or not; what took over is not RESUMING.
+- A move keeps the parameters with which it began, or not; so does the stop of it.
 - An increment or jog goes on when manual mode ends, or stops; hold keeps it for CONTROL_RESUME, or ends it.
 - Beyond a limit, after the fault is cleared, AXIS_POS_LIMIT and AXIS_NEG_LIMIT are TRUE or not; a jog outwards stops at once.
 - PROFILE_END in manual mode. Input bits one cycle after the set position, or with it.
@@ -61,6 +62,8 @@ class Judge(Motion):
         self.late_refusal = -1  # the cycle of a command that was accepted, and yet a fault
         self.top = 0.0  # greatest speed that was allowed since the axis was last at rest
         self.quiet = 0  # cycles at rest
+        self.falls = False  # an acceleration after the axis has turned around
+        self.rates = [0.0] * 3  # greatest ACCEL, DECEL and DECEL_MAX at their peaks since it was last at rest
         self.last_stop = -10**6
         self.inc, self.checked, self.outside = None, False, 0.0
         self.cause = 0  # the last cycle with a cause to move
@@ -337,9 +340,10 @@ class Judge(Motion):
                 for name, expected in (("RAMPING", True), ("STEADY", False), ("STOPPING", None if stopped else False)):
                     self.bit(cycle, name, expected)
             elif all(v * a < -1e-3 for v, a in zip(speeds, accelerations)):
-                self.bit(cycle, "STEADY", False)
-                if not self.seen(cycle, "RAMPING") and not self.seen(cycle, "STOPPING"):
-                    self.say(cycle, "RAMPING or STOPPING", True, False)
+                if all(-v * a > 0.3 * abs(v) * self.lowest() for v, a in zip(speeds, accelerations)):
+                    self.bit(cycle, "STEADY", False)  # not where it only passes the end of a ramp
+                    if not self.seen(cycle, "RAMPING") and not self.seen(cycle, "STOPPING"):
+                        self.say(cycle, "RAMPING or STOPPING", True, False)
                 if self.move and not self.move["stopped"] and not self.held and self.ends_here(cycle):
                     self.bit(cycle, "STOPPING", True)
 
@@ -384,7 +388,7 @@ class Judge(Motion):
         gaps = [abs(self.p[i] - move["target"]) for i in (cycle - 1, cycle)]
         gap = min(gaps)
         band = self.module["IN_POSITION_BAND"] + 1e-5 + self.top * CYCLE_S
-        if cycle - move["begin"] <= 2 or move["outside"]:
+        if cycle - move["begin"] <= 2 or move["outside"] or "taken" in move:
             return
         if gap > band:
             self.bit(cycle, "AXIS_AT_TARGET", False)

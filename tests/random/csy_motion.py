@@ -29,6 +29,9 @@ class Motion:
             self.bit(cycle, "AXIS_MANUAL_MODE", True)
         if self.move and (on or out["OPERATION_MODE_1"]):
             self.move["clean"], self.move["stopped"], self.move["manual"] = False, True, True
+            taken = any(out[name] for name in ("CONTROL_JOG_POS", "CONTROL_JOG_NEG", "CONTROL_INC_POS", "CONTROL_INC_NEG"))
+            if taken:  # a jog or increment may have taken over
+                self.resumed, self.move["taken"] = False, True
         jog = out["CONTROL_JOG_POS"] - out["CONTROL_JOG_NEG"]
         able = on and steady and cycle - self.last_stop > 2 and self.acquired and self.seen(cycle, "DRIVE_ENABLED")
         speed = self.sequence.manual_speed
@@ -104,13 +107,21 @@ class Motion:
 
     def acceleration(self, cycle, before):
         v, a, limits = self.v[cycle], self.a[cycle], self.module
-        peak = limits["ACCEL_TYPE"] / 100
-        up, down = limits["ACCEL"], limits["DECEL"]
+        rates = [limits[name] * limits["ACCEL_TYPE"] / 100 for name in ("ACCEL", "DECEL", "DECEL_MAX")]
+        if self.quiet <= 2:  # a move keeps the parameters with which it began
+            rates = [max(pair) for pair in zip(rates, self.rates)]
+        self.rates = rates
+        up, down = rates[:2]
         if cycle - self.last_stop < 400:
-            down = max(down, limits["DECEL_MAX"])
-        if v * self.v[cycle - 1] < 0 or abs(v) < peak * max(up, down) * CYCLE_S or cycle - self.since_adjust(cycle) < 3:
+            down = max(down, rates[2])
+        if v * self.v[cycle - 1] < 0 or abs(v) < max(up, down) * CYCLE_S or cycle - self.since_adjust(cycle) < 3:
             up = down = max(up, down)
-        bound = peak * (up if abs(v) > before else down)
+        bound = up if abs(v) > before else down
+        # After it has turned around an acceleration with a limited jerk can only fall.
+        turned = v * self.v[cycle - 1] < 0
+        self.falls = turned or self.falls and a * self.a[cycle - 1] > 0 and abs(a) < abs(self.a[cycle - 1])
+        if self.falls and limits["ACCEL_TYPE"] > 100:
+            bound = max(up, down)
         if v == 0 and not self.seen(cycle, "DRIVE_ENABLED"):
             return
         if abs(a) > bound * (1 + 1e-6) + 1e-5:

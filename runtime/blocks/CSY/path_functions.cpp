@@ -116,13 +116,13 @@ double st::CSY::CSY_PathConstantSpeed(::stride::Ctx & /*ctx__*/, CSY_PATH_STATE 
 
 ::stride::BOOL st::CSY::CSY_PathMove(::stride::Ctx & /*ctx__*/, CSY_PATH_STATE &state, double fFrom,
                                      double fTo, double fSpeed, double fRatio, double fVelocity,
-                                     double fAcceleration, double fDeceleration) {
+                                     double fAcceleration, double fDeceleration, double fShape) {
   Path &path = pathOf(state);
   double speed[csy::kMostPieces];
   for (uint32_t i = 0; i < path.trajectory.pieces; ++i)
     speed[i] = fSpeed > 0.0 ? fSpeed : fRatio * path.speeds.computed[i];
-  if (!csy::beginMove(path.trajectory, speed, {fVelocity, fAcceleration, fDeceleration}, fFrom, fTo,
-                      path.move))
+  if (!csy::beginMove(path.trajectory, speed, {fVelocity, fAcceleration, fDeceleration, fShape},
+                      fFrom, fTo, path.move))
     return 0;
   state.fPosition = fFrom;
   state.fVelocity = 0.0;

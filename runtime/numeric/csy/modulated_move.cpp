@@ -47,18 +47,47 @@ struct Place {
   double way, speed;
 };
 
+/// A ramp of a speed from 0 to 1 in a time of 1, at a time in it: speed, and way. Its acceleration
+/// rises linearly to `shape`, stays, and falls as it has risen.
+Place ramp(double shape, double time) noexcept {
+  const double rise = 1.0 - 1.0 / shape;
+  if (time < rise)
+    return {shape * time * time * time / (6.0 * rise), 0.5 * shape * time * time / rise};
+  const double left = 1.0 - time;
+  if (left < rise)
+    return {0.5 - left + shape * left * left * left / (6.0 * rise),
+            1.0 - 0.5 * shape * left * left / rise};
+  const double steady = time - rise;
+  return {shape * rise * rise / 6.0 + 0.5 * shape * (rise + steady) * steady,
+          0.5 * shape * rise + shape * steady};
+}
+
+/// At a time in a ramp that leads from a speed to a higher one.
+Place rampUp(double low, double high, double duration, double shape, double time) noexcept {
+  const Place part = ramp(shape, time / duration);
+  return {low * time + (high - low) * duration * part.way, low + (high - low) * part.speed};
+}
+
 Place placeIn(const ModulatedMove &move, const Course &course, double time) noexcept {
   const Leg &leg = move.leg[move.at];
-  if (time < course.up)
-    return {(leg.enter + 0.5 * move.limits.acceleration * time) * time,
-            leg.enter + move.limits.acceleration * time};
+  const MasterLimits &limits = move.limits;
+  if (time < course.up) {
+    if (limits.shape > 1.0)
+      return rampUp(leg.enter, course.peak, course.up, limits.shape, time);
+    return {(leg.enter + 0.5 * limits.acceleration * time) * time,
+            leg.enter + limits.acceleration * time};
+  }
   const double rising = 0.5 * (leg.enter + course.peak) * course.up;
   if (time < course.up + course.steady)
     return {rising + course.peak * (time - course.up), course.peak};
   const double left = larger(0.0, course.up + course.steady + course.down - time);
   const double leave = exitOf(move, move.at);
-  return {leg.way - (leave + 0.5 * move.limits.deceleration * left) * left,
-          leave + move.limits.deceleration * left};
+  if (limits.shape > 1.0 && left > 0.0) { // as it would rise from the end
+    const Place place = rampUp(leave, course.peak, course.down, limits.shape, left);
+    return {leg.way - place.way, place.speed};
+  }
+  return {leg.way - (leave + 0.5 * limits.deceleration * left) * left,
+          leave + limits.deceleration * left};
 }
 
 /// Legs in the direction of the move, without their speeds at the ends.
@@ -92,6 +121,79 @@ void meetLegs(ModulatedMove &move) noexcept {
   }
 }
 
+/// Speed of a ramp from a speed to a higher one where it has led over a way.
+double rampSpeedAt(double low, double high, double duration, double shape, double way) noexcept {
+  double before = 0.0;
+  double after = duration;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (before + after);
+    (rampUp(low, high, duration, shape, middle).way < way ? before : after) = middle;
+  }
+  return rampUp(low, high, duration, shape, after).speed;
+}
+
+/// Whether the ramp of a leg goes on in the next one, up or down.
+bool goesOn(const Course &leg, const Course &next) noexcept {
+  constexpr double kNothing = 1e-9; // of the leg's time
+  const bool risesToItsEnd = leg.up > 0.0 && leg.steady + leg.down <= kNothing * leg.up;
+  const bool fallsFromItsBegin = next.down > 0.0 && next.steady + next.up <= kNothing * next.down;
+  return (risesToItsEnd && next.up > kNothing * next.steady) ||
+         (leg.down > kNothing * leg.steady && fallsFromItsBegin);
+}
+
+/// Whether legs may become one: its ramps are nowhere faster than what is allowed there.
+bool mayMerge(const ModulatedMove &move, uint32_t first, uint32_t last, double peak) noexcept {
+  double whole = 0.0;
+  for (uint32_t i = first; i <= last; ++i)
+    whole += move.leg[i].way;
+  const double enter = move.leg[first].enter;
+  const double leave = exitOf(move, last);
+  const double up = (peak - enter) / move.limits.acceleration;
+  const double down = (peak - leave) / move.limits.deceleration;
+  const double rising = 0.5 * (enter + peak) * up;
+  const double falling = 0.5 * (leave + peak) * down;
+  const double shape = move.limits.shape;
+  double way = 0.0;
+  for (uint32_t i = first; i < last; ++i) {
+    way += move.leg[i].way;
+    const double left = whole - way;
+    const double slack = 1.0 + 1e-9;
+    if (way < rising && rampSpeedAt(enter, peak, up, shape, way) > slack * move.leg[i].limit)
+      return false;
+    if (left < falling &&
+        rampSpeedAt(leave, peak, down, shape, left) > slack * move.leg[i + 1].limit)
+      return false;
+  }
+  return true;
+}
+
+/// Shaped ramps lead over several legs: these become one, from the first on.
+void mergeLegs(ModulatedMove &move) noexcept {
+  uint32_t made = 0;
+  for (uint32_t first = 0; first < move.legs;) {
+    uint32_t last = first;
+    Course course = courseOf(move, first);
+    double peak = course.peak;
+    while (last + 1 < move.legs) {
+      const Course next = courseOf(move, last + 1);
+      if (!goesOn(course, next))
+        break;
+      peak = larger(peak, next.peak);
+      course = next;
+      ++last;
+    }
+    if (!mayMerge(move, first, last, peak))
+      last = first;
+    Leg leg = move.leg[first];
+    for (uint32_t i = first + 1; i <= last; ++i)
+      leg.way += move.leg[i].way;
+    leg.limit = first == last ? leg.limit : peak;
+    move.leg[made++] = leg;
+    first = last + 1;
+  }
+  move.legs = made;
+}
+
 } // namespace
 
 bool beginMove(const Trajectory &trajectory, const double *speed, const MasterLimits &limits,
@@ -116,6 +218,8 @@ bool beginMove(const Trajectory &trajectory, const double *speed, const MasterLi
     if (!(move.leg[i].limit > 0.0))
       return false;
   meetLegs(move);
+  if (limits.shape > 1.0)
+    mergeLegs(move);
   return true;
 }
 

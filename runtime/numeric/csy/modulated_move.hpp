@@ -1,6 +1,8 @@
 // A move of the master along a path whose speed changes with the pieces (MoveImmedInterpo, action
 // 905, modulated): on each piece the lower one of the speed asked for and the one allowed, within
-// the master's own acceleration and deceleration.
+// the master's own acceleration and deceleration. A ramp with a shape (ACCEL_TYPE) takes the time
+// and the way of the ramp with the same steady acceleration. One that leads over several pieces is
+// one ramp, unless it would be too fast on one of them: then each piece has its own.
 // Source: TSX CSY 85 configuration manual 35010452, chapter 4.2. Free of the C++ standard library.
 #ifndef STRIDE_RUNTIME_NUMERIC_CSY_MODULATED_MOVE_HPP
 #define STRIDE_RUNTIME_NUMERIC_CSY_MODULATED_MOVE_HPP
@@ -14,11 +16,13 @@ struct MasterLimits {
   double velocity;     ///< 0: not limited [mm/s]
   double acceleration; ///< above 0 [mm/s^2]
   double deceleration; ///< above 0 [mm/s^2]
+  double shape =
+      1.0; ///< the greatest acceleration of a ramp by its mean: 1 (a rectangle) to 2 (a triangle)
 };
 
 /// A move from rest to rest. Its members are its state: the functions below are for them.
 struct ModulatedMove {
-  /// A part of the way with one limit.
+  /// A part of the way with one limit; with shaped ramps also one that leads over several pieces.
   struct Leg {
     double way;   ///< [mm]
     double limit; ///< [mm/s]
