@@ -1,6 +1,7 @@
 #include "compiler/import/scl_reader.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/scl_constants.hpp"
 #include "compiler/import/scl_text.hpp"
 #include "compiler/import/scl_tokens.hpp"
 #include "compiler/source/st_scan.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <span>
 
@@ -51,41 +51,6 @@ bool isBlankText(std::string_view text) {
 
 /// Values that a data block's BEGIN part gives, by the names of its members in lower case.
 using Initial = std::map<std::string, std::string>;
-
-/// The type that a literal of Structured Text has as a constant; empty: it is no literal.
-std::string_view constantType(std::string_view value) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kPrefixes = {
-      {{"T", "TIME"},    {"TIME", "TIME"},   {"D", "DATE"},      {"DATE", "DATE"},
-       {"TOD", "TOD"},   {"DT", "DT"},       {"BOOL", "BOOL"},   {"BYTE", "BYTE"},
-       {"WORD", "WORD"}, {"DWORD", "DWORD"}, {"LWORD", "LWORD"}, {"SINT", "SINT"},
-       {"INT", "INT"},   {"DINT", "DINT"},   {"LINT", "LINT"},   {"USINT", "USINT"},
-       {"UINT", "UINT"}, {"UDINT", "UDINT"}, {"REAL", "REAL"},   {"LREAL", "LREAL"}}};
-  const std::string upper = stride::common::upperCase(value);
-  if (upper.starts_with('\''))
-    return "STRING";
-  if (upper == "TRUE" || upper == "FALSE")
-    return "BOOL";
-  if (const size_t hash = upper.find('#'); hash != std::string::npos)
-    for (const auto &[prefix, type] : kPrefixes)
-      if (std::string_view(upper).substr(0, hash) == prefix)
-        return type;
-  const size_t sign = upper.starts_with('-') || upper.starts_with('+') ? 1 : 0;
-  if (upper.size() == sign || upper[sign] < '0' || upper[sign] > '9' ||
-      upper.find_first_not_of("0123456789ABCDEF_#.+-", sign) != std::string::npos)
-    return {};
-  if (upper.find('#') == std::string::npos &&
-      upper.find_first_not_of("0123456789_", sign) != std::string::npos) {
-    double number = 0;
-    const auto [end, error] =
-        std::from_chars(upper.data() + sign, upper.data() + upper.size(), number);
-    return error == std::errc() && end == upper.data() + upper.size() ? "REAL" : "";
-  }
-  std::string digits = upper.substr(upper.front() == '+' ? 1 : 0);
-  std::erase(digits, '_');
-  int16_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return error == std::errc() && end == digits.data() + digits.size() ? "INT" : "DINT";
-}
 
 class Blocks {
 public:
@@ -329,8 +294,13 @@ private:
     sections(name, text, out);
     if (text.isNow("BEGIN"))
       text.skip();
-    if (!text.statements(out, block.end))
+    std::string body;
+    if (!text.statements(body, block.end))
       return false;
+    const std::string own = text.ownSections() + text.viewStatements();
+    if (!own.empty() && out.back() != '\n')
+      out += '\n';
+    out += own + body;
     if (out.back() != '\n')
       out += '\n';
     out += fmt::format("END_{}\n", block.st);
@@ -375,7 +345,7 @@ private:
       if (assigned)
         text.skip();
       const std::string value(trimmed(text.value()));
-      const std::string_view type = constantType(value);
+      const std::string_view type = sclConstantType(value);
       if (name.empty() || !assigned || type.empty())
         text.leaveOut(line, fmt::format("the constant `{} := {}` is no plain value: declare it in "
                                         "VAR CONSTANT",
@@ -403,7 +373,7 @@ private:
     if (isBlankText(passed) && passed.find('\n') == std::string::npos)
       passed.clear(); // between VAR and its qualifier
     out += passed;
-    text.members(out, name, "END_VAR", {nullptr, inOut});
+    text.members(out, name, "END_VAR", {nullptr, inOut, true});
     out += "END_VAR";
   }
 
@@ -430,8 +400,10 @@ private:
 /// DTL is a structure that S7-1200 and S7-1500 bring along.
 void addDateType(const std::string &file, std::string_view text, Model &model) {
   const std::vector<SclToken> tokens = sclTokens(text);
-  const auto used =
-      std::ranges::find_if(tokens, [](const SclToken &each) { return isSclWord(each, "DTL"); });
+  const auto used = std::ranges::find_if(tokens, [](const SclToken &each) {
+    return isSclWord(each, "DTL") || (each.kind == SclKind::Literal &&
+                                      stride::common::lowerCase(each.text).starts_with("dtl#"));
+  });
   const bool known = std::ranges::any_of(model.objects, [](const Object &each) {
     return stride::common::upperCase(each.name) == "DTL";
   });

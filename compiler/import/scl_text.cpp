@@ -1,6 +1,7 @@
 #include "compiler/import/scl_text.hpp"
 
 #include "compiler/import/exp_lines.hpp"
+#include "compiler/import/scl_constants.hpp"
 #include "compiler/import/texts.hpp"
 #include "compiler/source/st_scan.hpp"
 #include "runtime/common/text.hpp"
@@ -27,8 +28,7 @@ constexpr std::array<Prefix, 5> kPrefixes = {
     {{"l#", "DINT#"}, {"b#", "BYTE#"}, {"w#", "WORD#"}, {"dw#", "DWORD#"}, {"lw#", "LWORD#"}}};
 
 /// Constants that are nothing here.
-constexpr std::array<std::string_view, 5> kUnknownConstants = {"s5t#", "s5time#", "c#", "p#",
-                                                               "dtl#"};
+constexpr std::array<std::string_view, 4> kUnknownConstants = {"s5t#", "s5time#", "c#", "p#"};
 
 /// Types that only a Siemens CPU has.
 constexpr std::array<std::string_view, 11> kUnknownTypes = {
@@ -83,8 +83,24 @@ std::string SclText::comment(std::string_view text) {
   return out + (inside.ends_with('(') ? " *)" : "*)");
 }
 
+/// A structure has no literals, so that in statements a constant of the block stands for it.
+std::string SclText::date(const SclToken &token) {
+  const std::optional<std::string> value = sclDateValue(token.text);
+  if (!value) {
+    leaveOut(token.line, fmt::format("`{}` is no date and time of a DTL", token.text));
+    return std::string(token.text);
+  }
+  if (!inStatements_)
+    return *value;
+  std::string name = asIdentifier(token.text);
+  dates_.emplace(name, *value);
+  return name;
+}
+
 std::string SclText::literal(const SclToken &token) {
   const std::string lower = stride::common::lowerCase(token.text);
+  if (lower.starts_with("dtl#"))
+    return date(token);
   for (const scl::Prefix &each : scl::kPrefixes)
     if (lower.starts_with(each.from))
       return std::string(each.to) + std::string(token.text.substr(each.from.size()));
@@ -212,20 +228,90 @@ void SclText::members(std::string &out, const std::string &owner, std::string_vi
         out += plain(tokens_[at_++]);
       continue;
     }
+    const size_t nameAt = out.size();
     out += name;
     for (; !atEnd() && !scl::ends(now(), ':') && !scl::ends(now(), ';') && !isNow(end); ++at_) {
+      if (isNow("AT") && rules.ofBlock && view(out, name, nameAt, owner))
+        break;
       if (isNow("AT"))
-        leaveOut(now().line, fmt::format("`{}` is a view of another variable (AT)", name));
+        leaveOut(now().line, fmt::format("`{}` is a view of another variable (AT): the CPU stores "
+                                         "the high byte first, Stride the low one",
+                                         name));
       out += plain(now());
     }
     if (!atEnd() && scl::ends(now(), ':')) {
       out += plain(tokens_[at_++]);
+      const size_t written = out.size();
       type(out, fmt::format("{}_{}", owner, name));
+      if (rules.ofBlock)
+        types_.insert_or_assign(stride::common::lowerCase(name), out.substr(written));
     }
     memberValue(out, name, end, rules);
     if (at_ == begin)
       ++at_;
   }
+}
+
+/// `b AT w : DWORD;` of a POU: true when it is kept as a pointer, and passed.
+bool SclText::view(std::string &out, const std::string &name, size_t nameAt,
+                   const std::string &owner) {
+  const size_t at = at_;
+  const size_t line = now().line;
+  const std::string hoisted = hoisted_;
+  skip(); // AT
+  const std::string of = takeName();
+  std::string as;
+  pass(as);
+  as.clear();
+  if (!atEnd() && scl::ends(now(), ':')) {
+    skip();
+    type(as, fmt::format("{}_{}", owner, name));
+  }
+  const auto seen = types_.find(stride::common::lowerCase(of));
+  if (atEnd() || !scl::ends(now(), ';') || seen == types_.end() ||
+      !isSclViewKept(as, seen->second)) {
+    at_ = at;
+    hoisted_ = hoisted;
+    return false;
+  }
+  skip();
+  out.resize(nameAt);
+  views_.insert_or_assign(stride::common::lowerCase(name),
+                          View{name, of, std::string(trimmed(as))});
+  changed(line, fmt::format("the view `{}` of `{}` (AT) became a pointer to it", name, of));
+  return true;
+}
+
+/// Whether the token, after that text, names a view of the block.
+bool SclText::isView(const SclToken &token, std::string_view before) const {
+  const bool local = token.kind == SclKind::Local;
+  if (views_.empty() || (!local && token.kind != SclKind::Word))
+    return false;
+  const std::string_view text = trimmed(before);
+  const SclToken *next = significant(at_ + 1);
+  const bool input = (text.ends_with('(') || text.ends_with(',')) && next != nullptr &&
+                     (next->text == ":=" || next->text == "=>"); // of the block that is called
+  return (local || (!input && !text.ends_with('.'))) &&
+         views_.contains(stride::common::lowerCase(asIdentifier(sclName(token))));
+}
+
+std::string SclText::ownSections() const {
+  std::string out;
+  for (const auto &[key, one] : views_)
+    out += fmt::format("  {} : POINTER TO {};\n", one.name, one.type);
+  if (!out.empty())
+    out = fmt::format("VAR_TEMP\n{}END_VAR\n", out);
+  std::string dates;
+  for (const auto &[name, value] : dates_)
+    dates += fmt::format("  {} : DTL := {};\n", name, value);
+  return dates.empty() ? out : out + fmt::format("VAR CONSTANT\n{}END_VAR\n", dates);
+}
+
+std::string SclText::viewStatements() const {
+  std::string out;
+  for (const auto &[key, one] : views_)
+    out += fmt::format("{} := ADR({});\n", one.name, one.of);
+  return out;
 }
 
 std::string SclText::value() {
@@ -293,10 +379,11 @@ void SclText::statementToken(std::string &out) {
     out += ')';
     closing_ = false;
   }
+  const bool view = isView(token, out);
   if (isSclWord(token, "GOTO"))
     out += "JMP";
   else
-    out += plain(token);
+    out += plain(token) + (view ? "^" : "");
   skip();
   const bool first = scl::nothingSince(out, statement_);
   const bool begins = std::ranges::any_of(
@@ -307,6 +394,7 @@ void SclText::statementToken(std::string &out) {
 }
 
 bool SclText::statements(std::string &out, std::string_view end) {
+  inStatements_ = true;
   statement_ = out.size();
   closing_ = false;
   while (!atEnd()) {

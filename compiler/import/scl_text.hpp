@@ -38,6 +38,7 @@ public:
     std::map<std::string, std::string> *initial = nullptr; ///< values that a data block gives
                                                            ///< them by name; used ones are erased
     bool noValues = false;                                 ///< initial values are dropped
+    bool ofBlock = false;                                  ///< variables of a POU: views are kept
   };
   /// Members of a structure or of variables up to `end` (END_VAR, END_STRUCT), which is passed.
   void members(std::string &out, const std::string &owner, std::string_view end,
@@ -48,6 +49,10 @@ public:
   [[nodiscard]] std::string value();
   /// Types of structures that had no name; complete declarations.
   [[nodiscard]] const std::string &hoisted() const { return hoisted_; }
+  /// Variables of the block that stand for its views and for dates in its statements, as sections.
+  [[nodiscard]] std::string ownSections() const;
+  /// Lets the views refer to their variables; the first statements of the block.
+  [[nodiscard]] std::string viewStatements() const;
   void setObject(std::string object) { object_ = std::move(object); }
   void leaveOut(size_t line, std::string why);
   void changed(size_t line, std::string what);
@@ -58,6 +63,9 @@ private:
   [[nodiscard]] std::string literal(const SclToken &token);
   [[nodiscard]] std::string comment(std::string_view text);
   [[nodiscard]] const SclToken *significant(size_t from) const;
+  [[nodiscard]] std::string date(const SclToken &token);
+  bool view(std::string &out, const std::string &name, size_t nameAt, const std::string &owner);
+  [[nodiscard]] bool isView(const SclToken &token, std::string_view before) const;
   void structure(std::string &out, const std::string &name);
   void memberValue(std::string &out, const std::string &name, std::string_view end,
                    const MemberRules &rules);
@@ -75,9 +83,18 @@ private:
   std::string object_;
   std::string hoisted_;
   size_t depth_ = 0;
-  size_t statement_ = 0;        ///< where the statement begins in the text that is made
-  bool closing_ = false;        ///< a `)` is due before the next `;`
-  std::set<std::string> named_; ///< what has been said about this block
+  size_t statement_ = 0; ///< where the statement begins in the text that is made
+  bool inStatements_ = false;
+  struct View {
+    std::string name;
+    std::string of;   ///< the variable that is seen as another type
+    std::string type; ///< as which type
+  };
+  std::map<std::string, View> views_;        ///< by their names in lower case
+  std::map<std::string, std::string> types_; ///< of the block's variables, by names in lower case
+  std::map<std::string, std::string> dates_; ///< values of dates in statements, by their names
+  bool closing_ = false;                     ///< a `)` is due before the next `;`
+  std::set<std::string> named_;              ///< what has been said about this block
 };
 
 } // namespace stc::import

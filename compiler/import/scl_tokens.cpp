@@ -65,17 +65,6 @@ private:
     return end == std::string_view::npos ? text_.size() : end + 1;
   }
 
-  [[nodiscard]] size_t endOfAttribute() const {
-    for (size_t i = at_; i < text_.size(); ++i) {
-      const size_t text = afterString(text_, i);
-      if (text != i)
-        i = text - 1;
-      else if (text_[i] == '}')
-        return i + 1;
-    }
-    return text_.size();
-  }
-
   /// After the part of a constant that follows its last `#`. Dates have `-` and `:` in them.
   [[nodiscard]] size_t endOfConstant(size_t from, bool date) const {
     size_t i = from;
@@ -142,7 +131,7 @@ private:
     if (c == '"')
       return add(SclKind::Quoted, endOfQuoted(at_));
     if (c == '{')
-      return add(SclKind::Attribute, endOfAttribute());
+      return add(SclKind::Attribute, afterPragma(text_, at_));
     if (c == '#' && sign(1) == '"')
       return add(SclKind::Local, endOfQuoted(at_ + 1));
     if (c == '#' && !wordAt(text_, at_ + 1).empty())

@@ -38,6 +38,7 @@ enum class BuiltinTakes : uint8_t {
   Instance,  ///< the first is given its initial values
   Query,     ///< the second refers to the first afterwards
   Pointer,   ///< to an object that is deleted; it is 0 afterwards
+  Enabled,   ///< EN, a call of a function that happens only then, and where ENO goes
 };
 
 /// What checker, lints and code generation ask of a built-in function.

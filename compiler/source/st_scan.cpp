@@ -51,11 +51,15 @@ size_t afterPragma(std::string_view text, size_t at) {
   if (at >= text.size() || text[at] != '{')
     return at;
   for (++at; at < text.size(); ++at) {
-    const size_t end = afterString(text, at);
-    if (end > at + 1 && text[end - 1] == text[at])
-      at = end - 1;
-    else if (text[at] == '}')
+    const char c = text[at];
+    if (c == '}')
       return at + 1;
+    const char before = text[at - 1]; // an apostrophe of a word begins no text
+    if ((c != '\'' && c != '"') || isLetter(before) || isDigit(before))
+      continue;
+    const size_t stop = text.find_first_of(c == '\'' ? "'\n" : "\"\n", at + 1);
+    if (stop != std::string_view::npos && text[stop] == c)
+      at = stop;
   }
   return text.size();
 }

@@ -15,8 +15,9 @@ namespace stc {
 /// After the comment that begins at `at`; `at` when none does. `(*` nests in `(*` only; one
 /// without its end reaches to the end of the text.
 [[nodiscard]] size_t commentEnd(std::string_view text, size_t at);
-/// After the pragma `{…}` that begins at `at`, whose texts may have a `}` when they
-/// end on their line; `at` when none does.
+/// After the pragma `{…}` that begins at `at`; `at` when none does, the end of the text when it has
+/// no end. Texts between quotes may have a `}` when they end on their line. In them `$` is a sign
+/// like any other. What follows a letter or a digit directly is an apostrophe: `{it's}`.
 [[nodiscard]] size_t afterPragma(std::string_view text, size_t at);
 /// After the comment or the pragma that begins at `at`; `at` when none does.
 [[nodiscard]] size_t afterComment(std::string_view text, size_t at);

@@ -1,4 +1,5 @@
 // Pragmas: attributes, messages, conditional compilation.
+#include "compiler/source/st_scan.hpp"
 #include "compiler/syntax/characters.hpp"
 #include "compiler/syntax/scanner.hpp"
 
@@ -7,18 +8,8 @@
 namespace stc {
 
 size_t Scanner::pragmaEnd(size_t begin) const {
-  size_t end = begin + 1;
-  while (end < text_.size() && text_[end] != '}') {
-    const char c = text_[end];
-    if (c == '\'' ||
-        c == '"') { // a quoted text may hold a brace, unless it does not end on its line
-      const auto stop = text_.find_first_of(c == '\'' ? "'\n" : "\"\n", end + 1);
-      if (stop != std::string_view::npos && text_[stop] == c)
-        end = stop;
-    }
-    ++end;
-  }
-  return end < text_.size() ? end + 1 : std::string_view::npos;
+  const size_t end = afterPragma(text_, begin);
+  return end > begin + 1 && text_[end - 1] == '}' ? end : std::string_view::npos;
 }
 
 void Scanner::pragma(size_t begin) {

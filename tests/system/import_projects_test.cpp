@@ -70,7 +70,7 @@ TEST_F(ImportProjects, RunsAnExportOfCodesys) {
 TEST_F(ImportProjects, RunsASourceOfScl) {
   const ProcessResult result = import("Tank.scl");
   EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
-  EXPECT_THAT(result.out, HasSubstr("Imported 6 objects from 1 file into project: 0 left out"));
+  EXPECT_THAT(result.out, HasSubstr("Imported 9 objects from 1 file into project: 0 left out"));
   // What the source says, as far as the simulation got.
   const std::string out = simulated("T#1s", "Tank.Cycles,Filling_DB.Values.Pump.Starts,Tank.Level");
   const size_t begin = out.find("= ") + 2;
@@ -92,6 +92,11 @@ TEST_F(ImportProjects, RunsASourceOfScl) {
     text += '0';
   EXPECT_EQ(out, "Tank.Cycles = " + std::to_string(cycles) + "\nFilling_DB.Values.Pump.Starts = " +
                      std::to_string(starts) + "\nTank.Level = " + text + "\n");
+  // -1.5 has the bits 16#BFC0_0000, which are 3217031168; 2024-02-29 was a Thursday.
+  EXPECT_EQ(simulated("T#100ms", "Stamp_DB.Bits,Stamp_DB.Sign,Stamp_DB.At.WEEKDAY,"
+                                 "Stamp_DB.At.NANOSECOND"),
+            "Stamp_DB.Bits = 3217031168\nStamp_DB.Sign = TRUE\nStamp_DB.At.WEEKDAY = 5\n"
+            "Stamp_DB.At.NANOSECOND = 250000000\n");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "compiler/codegen/calls/builtin_rows.hpp"
 
 #include "compiler/codegen/calls/assertions.hpp"
+#include "compiler/codegen/calls/enabled_calls.hpp"
 #include "compiler/codegen/calls/instances.hpp"
 #include "compiler/codegen/calls/methods.hpp"
 #include "compiler/codegen/calls/pool_objects.hpp"

@@ -205,6 +205,8 @@ static const Type *resultOf(Context &c, const CallExpr *expr, bool asStatement) 
 
 const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
   followSelf(c, expr->callee);
+  if (const Type *enabled = checkEnabledCall(c, expr, asStatement))
+    return enabled;
   Expr *callee = expr->callee;
   const Type *result = nullptr;
   PouSymbol *pou = nullptr;

@@ -31,7 +31,8 @@ bool onlyReads(const CallExpr *call) {
   if (call->resolved != Callee::Builtin)
     return false;
   const BuiltinRow &row = builtinRow(call->builtin);
-  return row.readsValues() || row.takes.what == BuiltinTakes::TypeOf;
+  return row.readsValues() || row.takes.what == BuiltinTakes::TypeOf ||
+         row.takes.what == BuiltinTakes::Enabled;
 }
 
 bool containsLabel(Block block) {

@@ -177,6 +177,13 @@ static void builtin(Reader &r, const CallExpr *e) {
     target(r, e->arguments[1].value);
     flow(r, addressVariable(e->arguments[1].value), e->arguments[0].value);
     return;
+  case BuiltinTakes::Enabled:
+    for (const Argument &a : e->arguments)
+      if (a.output)
+        target(r, a.value);
+      else
+        value(r, a.value);
+    return;
   case BuiltinTakes::Values:
   case BuiltinTakes::Operands:
   case BuiltinTakes::Location:

@@ -1,8 +1,11 @@
 // Reading sources of Siemens SCL: words, frames, data blocks, structures.
+#include "compiler/import/scl_constants.hpp"
 #include "compiler/import/scl_reader.hpp"
 #include "compiler/import/scl_tokens.hpp"
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace {
 
@@ -164,13 +167,95 @@ TEST(SclReader, GivesConstantsTypes) {
   const Model model =
       read("FUNCTION_BLOCK F\nCONST\n  a := 5; // five\n  b := -32_768;\n  c := 32768;\n  d := "
            "2.5E-1;\n  e := 'x';\n  f := TRUE;\n  g := T#5s;\n  h := W#16#FF;\n  i := 16#A;\n"
+           "  j := 3_000_000_000;\n  k := DTL#2024-02-29-20:34:23.25;\n"
            "END_CONST\nBEGIN\n  #x := #a;\nEND_FUNCTION_BLOCK\n");
   EXPECT_TRUE(model.leftOut.empty());
   EXPECT_EQ(model.objects[0].text,
             "FUNCTION_BLOCK F\nVAR CONSTANT\n  a : INT := 5; // five\n  b : INT := -32_768;\n"
             "  c : DINT := 32768;\n  d : REAL := 2.5E-1;\n  e : STRING := 'x';\n"
             "  f : BOOL := TRUE;\n  g : TIME := T#5s;\n  h : WORD := WORD#16#FF;\n"
-            "  i : DINT := 16#A;\nEND_VAR\n\n  x := a;\nEND_FUNCTION_BLOCK\n");
+            "  i : INT := 16#A;\n  j : UDINT := 3_000_000_000;\n"
+            "  k : DTL := (YEAR := 2024, MONTH := 2, DAY := 29, WEEKDAY := 5, HOUR := 20, "
+            "MINUTE := 34, SECOND := 23, NANOSECOND := 250000000);\n"
+            "END_VAR\n\n  x := a;\nEND_FUNCTION_BLOCK\n");
+}
+
+/// At the last value of each type, and after it.
+TEST(SclConstants, TakeTheSmallestIntegerType) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 21> kExpected = {
+      {{"32767", "INT"},
+       {"32768", "DINT"},
+       {"-32768", "INT"},
+       {"-32769", "DINT"},
+       {"2147483647", "DINT"},
+       {"2147483648", "UDINT"},
+       {"-2147483648", "DINT"},
+       {"-2147483649", "LINT"},
+       {"4294967295", "UDINT"},
+       {"4294967296", "LINT"},
+       {"9223372036854775807", "LINT"},
+       {"9223372036854775808", "ULINT"},
+       {"-9223372036854775808", "LINT"},
+       {"-9223372036854775809", ""},
+       {"18446744073709551615", "ULINT"},
+       {"18446744073709551616", ""},
+       {"16#FFFF_FFFF", "UDINT"},
+       {"2#1000_0000_0000_0000", "DINT"},
+       {"8#777", "INT"},
+       {"7#6", ""},
+       {"LT#5ns", "LTIME"}}};
+  for (const auto &[value, type] : kExpected)
+    EXPECT_EQ(sclConstantType(value), type) << value;
+}
+
+TEST(SclConstants, ReadDates) {
+  EXPECT_EQ(sclDateValue("DTL#1970-01-01-00:00:00").value_or(""),
+            "(YEAR := 1970, MONTH := 1, DAY := 1, WEEKDAY := 5, HOUR := 0, MINUTE := 0, "
+            "SECOND := 0, NANOSECOND := 0)");
+  EXPECT_EQ(sclDateValue("dtl#2262-4-11-23:47:16.854775807").value_or(""),
+            "(YEAR := 2262, MONTH := 4, DAY := 11, WEEKDAY := 6, HOUR := 23, MINUTE := 47, "
+            "SECOND := 16, NANOSECOND := 854775807)");
+  for (const std::string_view bad :
+       {"DTL#", "DTL", "DTL#2023-02-29-00:00:00", "DTL#2023-02-28", "DTL#2023-02-28-24:00:00",
+        "DTL#2023-02-28-23:60:00", "DTL#2023-02-28-23:59:60", "DTL#1969-12-31-00:00:00",
+        "DTL#2023-02-28-23:59:59.", "DTL#2023-02-28-23:59:59.1234567890",
+        "DTL#2023-02-28-23:59:59.1x", "DTL#2023-13-01-00:00:00"})
+    EXPECT_FALSE(sclDateValue(bad)) << bad;
+}
+
+TEST(SclConstants, KeepViewsOfOneSize) {
+  EXPECT_TRUE(isSclViewKept("DWORD", " Real "));
+  EXPECT_TRUE(isSclViewKept("Int", "Word"));
+  EXPECT_TRUE(isSclViewKept("Array[0..2] of Byte", "array [ -1 .. 1 ] of Char"));
+  EXPECT_TRUE(isSclViewKept("Word", "Array[1..4] of Int"));
+  EXPECT_FALSE(isSclViewKept("Array[0..3] of Byte", "Array[1..3] of Byte"));
+  EXPECT_FALSE(isSclViewKept("Array[0..1] of Byte", "Word"));
+  EXPECT_FALSE(isSclViewKept("Array[0..15] of Bool", "Word"));
+  EXPECT_FALSE(isSclViewKept("Word", "Date"));
+  EXPECT_FALSE(isSclViewKept("Array[0..1, 0..1] of Byte", "Array[0..3] of Byte"));
+  EXPECT_FALSE(isSclViewKept("Array[0..N] of Byte", "Array[0..3] of Byte"));
+  EXPECT_FALSE(isSclViewKept("", "Word"));
+}
+
+/// A view of one size is a pointer, which each call lets refer to the variable anew.
+TEST(SclReader, KeepsViewsAndDatesInStatements) {
+  const Model model =
+      read("FUNCTION_BLOCK F\nVAR_INPUT\n  r : Real;\nEND_VAR\nVAR\n  d AT r : DWord; // bits\n"
+           "  w : Word;\n  b AT w : Array[0..1] of Byte;\n  t : DTL := DTL#2020-02-29-01:02:03;\n"
+           "END_VAR\nBEGIN\n  #d := #d AND DW#16#7FFF_FFFF;\n  G(d := #x.d);\n  d += d.%B0;\n"
+           "  #t := DTL#2021-01-02-03:04:05.006;\nEND_FUNCTION_BLOCK\n");
+  ASSERT_EQ(model.leftOut.size(), 1U);
+  EXPECT_EQ(model.leftOut[0].origin.line, 8U);
+  ASSERT_FALSE(model.objects.empty());
+  EXPECT_EQ(model.objects[0].text,
+            "FUNCTION_BLOCK F\nVAR_INPUT\n  r : Real;\nEND_VAR\nVAR\n   // bits\n  w : Word;\n"
+            "  b AT w : Array[0..1] of Byte;\n  t : DTL := (YEAR := 2020, MONTH := 2, DAY := 29, "
+            "WEEKDAY := 7, HOUR := 1, MINUTE := 2, SECOND := 3, NANOSECOND := 0);\n"
+            "END_VAR\nVAR_TEMP\n  d : POINTER TO DWord;\nEND_VAR\nVAR CONSTANT\n"
+            "  DTL_2021_01_02_03_04_05_006 : DTL := (YEAR := 2021, MONTH := 1, DAY := 2, "
+            "WEEKDAY := 7, HOUR := 3, MINUTE := 4, SECOND := 5, NANOSECOND := 6000000);\n"
+            "END_VAR\nd := ADR(r);\n\n  d^ := d^ AND DWORD#16#7FFF_FFFF;\n  G(d := x.d);\n"
+            "  d^ := d^ + ( d^.%B0);\n  t := DTL_2021_01_02_03_04_05_006;\nEND_FUNCTION_BLOCK\n");
 }
 
 /// The CPU brings it along; here it becomes a structure, once.

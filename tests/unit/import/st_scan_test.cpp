@@ -33,6 +33,11 @@ TEST(StScan, EndsPragmasAsTheCompilerDoes) {
   EXPECT_EQ(afterPragma("{a 'b}' c} d", 0), 10U);
   EXPECT_EQ(afterPragma("{it's} d", 0), 6U);
   EXPECT_EQ(afterPragma("{it's\n'} d", 0), 8U);
+  EXPECT_EQ(afterPragma("{it's} x := 'a';", 0), 6U);
+  EXPECT_EQ(afterPragma("{region L'axe d'en bas} x := 'a';", 0), 23U);
+  EXPECT_EQ(afterPragma("{warning '5$'} x := 'a';", 0), 14U);
+  EXPECT_EQ(afterPragma("{text \"it's}\"} d", 0), 14U);
+  EXPECT_EQ(afterPragma("{a := 'b}' 'c}'} d", 0), 16U);
   EXPECT_EQ(afterPragma("{open", 0), 5U);
   EXPECT_EQ(afterPragma("a", 0), 0U);
 }
@@ -43,6 +48,14 @@ TEST(StScan, CutsCodeIntoWords) {
   for (const StWord &each : wordsOf(text))
     words += std::string(text.substr(each.begin, each.end - each.begin)) + "|";
   EXPECT_EQ(words, "a1|:|=|16#FF|+|b|%IX0.3|");
+}
+
+TEST(StScan, FindsTheWordsAfterAnApostropheInAPragma) {
+  const std::string_view text = "{region it's here}\na := 'b'; {it's} c := 'd {e}';";
+  std::string words;
+  for (const StWord &each : wordsOf(text))
+    words += std::string(text.substr(each.begin, each.end - each.begin)) + "|";
+  EXPECT_EQ(words, "a|:|=|;|c|:|=|;|");
 }
 
 TEST(StScan, StepsOverTexts) {
