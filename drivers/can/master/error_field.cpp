@@ -14,10 +14,16 @@ void ErrorField::begin() { step_ = Step::Register; }
 void ErrorField::ask() {
   if (absent_)
     return;
+  gone_ = false;
   if (step_ == Step::Idle)
     step_ = Step::Count;
   else
     again_ = true;
+}
+
+void ErrorField::gone() {
+  said_ = 0;
+  gone_ = step_ != Step::Idle;
 }
 
 ObjectWish ErrorField::wish() const {
@@ -84,7 +90,7 @@ void ErrorField::sayNewest(uint32_t newest, uint32_t node, const Told &told, bus
       (told.emcy.has(code_) || told.errorCode == code_) && newest >> kMakersPart == 0;
   if (newest == said_ || known || newest == 0)
     return;
-  said_ = newest;
+  said_ = gone_ ? 0 : newest;
   news.say("node ", node, ": the newest of ", uint32_t{count_}, count_ == 1 ? " error" : " errors",
            " in its list (1003h) is ", HexText(newest, 8), ": ", errorText(code_));
 }

@@ -29,6 +29,8 @@ public:
   void ask();
   /// Its fault has gone.
   void settle() { code_ = 0; }
+  /// The node has no error any more: what comes after that is news again, even if it is the same.
+  void gone();
 
   /// What is to be read.
   [[nodiscard]] ObjectWish wish() const;
@@ -56,6 +58,7 @@ private:
   Step step_ = Step::Idle;
   bool again_ = false;  ///< There has been another error meanwhile.
   bool absent_ = false; ///< The node has no such list.
+  bool gone_ = false;   ///< The error that is being read has gone meanwhile.
 };
 
 } // namespace stride::can

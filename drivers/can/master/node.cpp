@@ -143,6 +143,8 @@ void Node::emcy(const Frame &frame, bus::News &news) {
     return;
   const Emcy &one = emcy_.message(0);
   const uint32_t number = config_.plan.node;
+  if (one.code == 0)
+    errors_.gone();
   if (one.code == 0 && old == 0)
     return;
   if (one.code == 0)
@@ -181,6 +183,8 @@ void Node::watchDrive(bus::News &news) {
     errors_.ask();
   else if (!drive_.fault())
     errors_.settle();
+  if (fault_ && !drive_.fault())
+    errors_.gone();
   fault_ = drive_.fault();
   if (drive_.velocityDoubtful())
     news.say("node ", uint32_t{config_.plan.node},

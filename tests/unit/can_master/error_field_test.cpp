@@ -50,6 +50,49 @@ TEST_F(ErrorList, WhatAnEmcyDoesNotSayIsSaid) {
   EXPECT_TRUE(host.heard("the newest of 3 errors in its list (1003h) is 16#00134310"));
 }
 
+/// As often as it comes, unless it has been there all the time.
+TEST_F(ErrorList, AnErrorThatGoesAndReturnsIsSaidAgain) {
+  start();
+  hasErrors({0x00123210});
+  emergency("1032010000000000");
+  EXPECT_TRUE(host.heard("in its list (1003h) is 16#00123210"));
+  emergency("1032010000000000");
+  EXPECT_FALSE(host.heard("in its list"));
+  emergency("0000000000000000");
+  EXPECT_TRUE(host.heard("node 3: its error has gone"));
+  emergency("1032010000000000");
+  EXPECT_TRUE(host.heard("in its list (1003h) is 16#00123210"));
+}
+
+TEST_F(ErrorList, AnErrorThatGoesWhileItIsReadIsSaidAgainWhenItReturns) {
+  start();
+  hasErrors({0x00123210});
+  nodes[0].say(0x080, "1032010000000000");
+  cycle();
+  nodes[0].say(0x080, "0000000000000000");
+  cycles(8);
+  EXPECT_TRUE(host.heard("in its list (1003h) is 16#00123210"));
+  emergency("1032010000000000");
+  EXPECT_TRUE(host.heard("in its list (1003h) is 16#00123210"));
+}
+
+/// A fault without a message is over when bit 3 of the statusword falls.
+TEST_F(ErrorList, AFaultThatReturnsIsSaidAgain) {
+  start();
+  enable(0);
+  hasErrors({0x00058611});
+  for (int i = 0; i < 2; ++i) {
+    shows(0, 0x208, 1000);
+    cycles(12);
+    EXPECT_TRUE(host.heard("in its list (1003h) is 16#00058611")) << i;
+    shows(0, 0x240, 1000);
+    commands[0].errorAckn = true;
+    cycles(3);
+    commands[0].errorAckn = false;
+    cycles(2);
+  }
+}
+
 TEST_F(ErrorList, WhatAnEmcySaysIsNotSaidTwice) {
   start();
   hasErrors({0x00003210});
