@@ -36,6 +36,49 @@ double durationWithin(const Task &task, const State &from, const Phase &phase) n
   return bracketedRoot(missing, low, high);
 }
 
+/// While the axis still slows down, the task's reach may rise, fall and rise again with the time
+/// for which it is pushed on: the acceleration at which a push that begins in `from` must end to
+/// reach farthest before the fall. Not below 0 if there is no fall.
+///
+/// After the push the acceleration falls to -z, where z^2 = a^2 + s - e (s: the velocity at which
+/// the push would have ended the slowing down, e: the end velocity, both times the jerk) or the
+/// falling limit. The reach then grows with the sign of s + a^2 + a z / 2, which is convex in a.
+double summitOf(const Task &task, const State &from) noexcept {
+  const double jerk = task.rates.jerk;
+  const double limit = task.rates.falling;
+  const double first = exact::larger(from.acceleration, -limit);
+  const double settled = jerk * from.velocity - 0.5 * from.acceleration * from.acceleration;
+  const double gain = settled - jerk * task.endVelocity;
+  const double rest = limit * limit * (1.0 / 16.0) - settled;
+  if (!(first < 0.0 && gain > 0.0 && rest > 0.0))
+    return 0.0;
+  double rate = first;
+  if (rate * rate + gain > limit * limit) { // the falling limit is reached
+    const double summit = -0.25 * limit - exact::sqrt(rest);
+    const bool held = summit * summit + gain >= limit * limit;
+    if (held)
+      return summit >= first ? summit : 0.0;
+    const double last = limit * limit - gain; // of these the limit is reached
+    rate = exact::larger(first, last > 0.0 ? -exact::sqrt(last) : 0.0);
+  }
+  for (int i = 0; i < 30; ++i) { // Newton's tangents lie below a convex function
+    const double z = exact::sqrt(rate * rate + gain);
+    const double slope = 2.0 * rate + 0.5 * z + 0.5 * rate * (rate / z);
+    const double growth = settled + rate * rate + 0.5 * rate * z;
+    if (!(growth > 0.0))
+      return i > 0 ? rate : 0.0;
+    if (!(slope < 0.0))
+      return 0.0;
+    const double step = growth / slope;
+    rate -= step;
+    if (!(rate < 0.0))
+      return 0.0;
+    if (-step <= 4.0 * kEpsilon * -rate)
+      break;
+  }
+  return rate;
+}
+
 /// Finds the fastest way when the axis has its end velocity already and departs from it so little
 /// that the last digits of the velocities would decide on the durations: four equal phases. False
 /// if it is no such task.
@@ -78,6 +121,17 @@ bool findForward(Route &route, const Task &task) noexcept {
     if (!(phase.duration > 0.0))
       continue;
     const State next = after(state, phase);
+    if (phase.jerk > 0.0 && state.acceleration < 0.0) {
+      const double summit = summitOf(task, state);
+      const double time = (summit - state.acceleration) / phase.jerk;
+      const Phase rise = partOf(phase, state, time);
+      if (summit < 0.0 && time > 0.0 && task.reach(after(state, rise)) >= task.distance) {
+        const Phase part = partOf(phase, state, durationWithin(task, state, rise));
+        route.head[route.headCount++] = part;
+        route.tail = task.changeFrom(after(state, part));
+        return true;
+      }
+    }
     if (task.reach(next) >= task.distance) {
       const Phase part = partOf(phase, state, durationWithin(task, state, phase));
       route.head[route.headCount++] = part;
