@@ -431,9 +431,41 @@ TEST_F(FixedPdos, WithAnotherTimingAreNone) {
   expectFailure("node 5, 16#1800:2 is fixed: it is 16#FF, and would have to be 16#1");
 }
 
-TEST_F(FixedPdos, WithMoreObjectsAreNone) {
+TEST_F(FixedPdos, WithMoreObjectsAreUsed) {
   fix(0x1A0000, 1, 3);
+  fix(0x1A0001, 4, 0x60770010); // between the others
+  fix(0x1A0002, 4, 0x60640020);
+  fix(0x1A0003, 4, 0x60410010);
+  node.pdosInOperation = {"185#0100060300004002"};
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_TRUE(host.heard("node 5: PDOs that it does not let be changed are used as they are"));
+  EXPECT_EQ(master->node(0).status().position, 0x306U);
+  EXPECT_EQ(master->node(0).signal(Signal::Statusword), 0x0240U);
+  EXPECT_THAT(node.written, ::testing::Not(Contains(HasSubstr("1020:")))) << "no stamp for that";
+}
+
+TEST_F(FixedPdos, OfAnotherLengthThanTheyPromiseAreNone) {
+  fix(0x1A0000, 1, 3);
+  fix(0x1A0003, 4, 0x60770010);
+  expectFailure("sends no PDO"); // the frame has six bytes
+}
+
+/// 72 bits, or a multiplexed PDO: nobody knows what is in it.
+TEST_F(FixedPdos, ThatAreNoPdosAreNone) {
+  fix(0x1A0000, 1, 3);
+  fix(0x1A0003, 4, 0x606C0020);
   expectFailure("node 5, 16#1A00:0 is fixed: it is 16#3, and would have to be 16#2");
+  master->node(0).reset();
+  cycles = 0;
+  fix(0x1A0000, 1, 0xFE);
+  expectFailure("node 5, 16#1A00:0 is fixed: it is 16#FE, and would have to be 16#2");
+}
+
+/// What it would be told is 0, and nobody knows what that does.
+TEST_F(FixedPdos, WithSetValuesOfItsMakerAreNone) {
+  fix(0x160000, 1, 3);
+  fix(0x160003, 4, 0x20310110);
+  expectFailure("node 5, 16#1600:0 is fixed: it is 16#3, and would have to be 16#2");
 }
 
 TEST_F(FixedPdos, WithOtherObjectsAreNone) {
@@ -441,9 +473,93 @@ TEST_F(FixedPdos, WithOtherObjectsAreNone) {
   expectFailure("node 5, 16#1A00:2 is fixed: it is 16#60630020, and would have to be 16#60640020");
 }
 
-TEST_F(FixedPdos, ThatCannotBeSwitchedOffAreNone) {
+/// Its frames are nobody's, and are counted.
+TEST_F(FixedPdos, ThatCannotBeSwitchedOffAreLeftAlone) {
   fix(0x180201, 4, 0x385);
-  expectFailure("node 5, 16#1802:1 is fixed: it is 16#385, and would have to be 16#80000385");
+  fix(0x180202, 1, 1);
+  fix(0x1A0200, 1, 1);
+  fix(0x1A0201, 4, 0x60FD0020);
+  node.pdosInOperation.emplace_back("385#00000000");
+  make();
+  const uint32_t before = master->node(0).cyclicBits();
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_TRUE(host.heard("node 5: its TPDO 3 cannot be switched off: nobody uses it, and it takes "
+                         "95 bits of a cycle"));
+  EXPECT_EQ(master->node(0).cyclicBits(), before + 95);
+  EXPECT_THAT(node.written, ::testing::Not(Contains(HasSubstr("1020:"))));
+}
+
+TEST_F(FixedPdos, ThatSayNothingOfThemselvesCountWithAllTheirBytes) {
+  node.values[0x180201] = {4, 0x385};
+  node.writeAborts[0x180201] = 0x06090030; // "the value is not allowed"
+  node.values[0x180202] = {1, 1};
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_TRUE(host.heard("takes 135 bits of a cycle"));
+  // By event it takes no time of each cycle.
+  node.values[0x180202] = {1, 254};
+  master->node(0).reset();
+  cycles = 0;
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_TRUE(host.heard("takes 0 bits of a cycle"));
+}
+
+TEST_F(FixedPdos, ThatAreOffAreNothing) {
+  fix(0x180201, 4, 0x80000385);
+  fix(0x140201, 4, 0xC0000405);
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_TRUE(host.news.empty()) << host.news.front();
+}
+
+TEST_F(FixedPdos, WithTheIdentifierOfAnotherPdoAreAnError) {
+  fix(0x180201, 4, 0x205);
+  expectFailure("node 5: its TPDO 3 cannot be switched off, and its COB-ID 16#205 (16#1802:1) is "
+                "another PDO's of the plan");
+}
+
+TEST_F(FixedPdos, WithAnIdentifierOf29BitsDisturbNobody) {
+  fix(0x180201, 4, 0x20000205);
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+}
+
+/// What the planned one lacks another one has.
+TEST_F(FixedPdos, ThatCannotBeSwitchedOffAreUsedForWhatIsWanted) {
+  fix(0x1A0000, 1, 1);
+  fix(0x180201, 4, 0x385);
+  fix(0x180202, 1, 1);
+  fix(0x1A0200, 1, 2);
+  fix(0x1A0201, 4, 0x60640020);
+  fix(0x1A0202, 4, 0x60410010);
+  node.pdosInOperation = {"185#4002", "385#070300004002"};
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_TRUE(host.heard("used as they are"));
+  EXPECT_FALSE(host.heard("nobody uses it"));
+  EXPECT_EQ(master->node(0).status().position, 0x307U);
+  // It counts as planned ones do.
+  node.atSync = {"185#4002"};
+  for (int i = 0; i < 5; ++i)
+    (void)cycle();
+  EXPECT_FALSE(master->node(0).communication());
+}
+
+TEST_F(FixedPdos, ThatLackWhatIsWantedAreNone) {
+  fix(0x1A0000, 1, 1);
+  fix(0x180201, 4, 0x385);
+  fix(0x180202, 1, 1);
+  fix(0x1A0200, 1, 1);
+  fix(0x1A0201, 4, 0x60630020);
+  expectFailure("node 5, 16#1A00:2 is fixed: it is 16#0, and would have to be 16#60640020");
+}
+
+TEST_F(FixedPdos, AreOthersAfterTheNextStartUp) {
+  fix(0x1A0000, 1, 3);
+  fix(0x1A0003, 4, 0x60770010);
+  node.pdosInOperation = {"185#4002030100000000"};
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  fix(0x1A0000, 1, 2); // another device
+  node.pdosInOperation = {"185#400203010000"};
+  master->node(0).reset();
+  cycles = 0;
+  EXPECT_EQ(run(), bus::StartUp::Started) << text();
 }
 
 TEST_F(FixedPdos, WhatCannotBeReadEitherIsAFailure) {
