@@ -393,6 +393,77 @@ TEST_F(StartUpOf, AValueThatDoesNotFitTheMeasuredObjectIsRefused) {
   expectFailure("node 5, 16#2031:2: 16#100 does not fit into its 1 bytes");
 }
 
+/// A node that is several drives; configured are its axes 1 and 3.
+class SeveralAxes : public StartUpOf {
+protected:
+  SeveralAxes() {
+    for (const uint8_t axis : {uint8_t{1}, uint8_t{3}}) {
+      DriveWish wish;
+      wish.node = 5;
+      wish.axis = axis;
+      wish.controlType = 4;
+      DeviceConfig device;
+      device.plan = planDrive(wish).plan;
+      device.plan.rpdos[0].cobId = static_cast<uint16_t>(0x205 + 0x100 * axis);
+      device.plan.tpdos[0].cobId = static_cast<uint16_t>(0x185 + 0x100 * axis);
+      if (axis == 1)
+        static_cast<DeviceConfig &>(config) = device;
+      else
+        config.further.push_back(device);
+      node.values[0x606100U + 0x80000U * axis] = {1, 8};
+    }
+    node.values[0x100000] = {4, 0xFFFF0191}; // its first one is an I/O device
+    node.values[0x6FFF00] = {4, 0x00020192};
+    node.values[0x7FFF00] = {4, 0x00020192};
+    node.modeFollows = false;
+    node.pdosInOperation = {"285#400203010000", "485#400204010000"};
+  }
+};
+
+TEST_F(SeveralAxes, StartTogether) {
+  ASSERT_EQ(run(), bus::StartUp::Started) << text();
+  EXPECT_EQ(std::count(sent.begin(), sent.end(), "000#8205"), 1);
+  EXPECT_EQ(std::count(sent.begin(), sent.end(), "000#0105"), 1);
+  const std::vector<std::string> &w = node.written;
+  const auto at = [&](const std::string &one) {
+    return std::find(w.begin(), w.end(), one) - w.begin();
+  };
+  EXPECT_LT(at("1640:1/4=68400010"), at("1640:2/4=687A0020"));
+  EXPECT_LT(at("1440:1/4=305"), at("1441:1/4=80000000"));
+  EXPECT_LT(at("18C0:1/4=485"), at("6860:0/1=8")) << "all PDOs before the first mode";
+  EXPECT_LT(at("6860:0/1=8"), at("7860:0/1=8"));
+  EXPECT_LT(at("7860:0/1=8"), at("1017:0/2=64"));
+  EXPECT_LT(at("1017:0/2=64"), static_cast<long>(w.size()));
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_EQ(master->node(0).status(0).position, 0x103U);
+  EXPECT_EQ(master->node(0).status(1).position, 0x104U);
+  EXPECT_TRUE(master->node(0).status(0).communication);
+  EXPECT_FALSE(master->node(0).status(1).communication) << "nobody serves it yet";
+  EXPECT_EQ(master->node(0).init(progress, message, master->news(), 1), bus::StartUp::Started);
+  EXPECT_TRUE(master->node(0).status(1).communication);
+}
+
+TEST_F(SeveralAxes, AnAxisThatIsNoDrive) {
+  node.values[0x7FFF00] = {4, 0x00030191};
+  expectFailure("node 5 is no drive of CiA 402 there: the type of that axis (16#7FFF:0) is "
+                "16#00030191");
+  // The other one is told as well, and then the node begins anew.
+  bus::Message other;
+  EXPECT_EQ(master->node(0).init(progress, other, master->news(), 1), bus::StartUp::Failed);
+  EXPECT_EQ(std::string(other.text()), text());
+  EXPECT_EQ(master->node(0).init(progress, other, master->news(), 1), bus::StartUp::Busy);
+}
+
+TEST_F(SeveralAxes, AnAxisThatIsNotThere) {
+  node.aborts[0x164001] = 0x06020000;
+  expectFailure("16#1640:1 := 16#68400010: there is no such object");
+}
+
+TEST_F(SeveralAxes, OneWithoutPdosKeepsAllFromStarting) {
+  node.pdosInOperation = {"285#400203010000"};
+  expectFailure("node 5 sends no PDO");
+}
+
 /// A device whose PDOs are const, and are what is planned.
 class FixedPdos : public StartUpOf {
 protected:
