@@ -47,8 +47,8 @@ CanDriver::CanDriver(const CanSetup &setup, std::unique_ptr<Port> port)
       periodNs_(std::max<int64_t>(static_cast<int64_t>(setup.master.cycle * 1e9 + 0.5), 1)),
       stopPatience_(cyclesOf(kStopPatience, setup.master.cycle)),
       offPatience_(cyclesOf(kOffPatience, setup.master.cycle)), standing_(setup.faults.size()),
-      encoders_(setup.encoders), drives_(setup.faults.size()), hasIos_(setup.hasIos),
-      othersFailed_(setup.master.nodes.size() - setup.faults.size()) {}
+      encoders_(setup.encoders), places_(setup.drives), driveNodes_(setup.driveNodes),
+      hasIos_(setup.hasIos), othersFailed_(setup.master.nodes.size() - setup.driveNodes) {}
 
 void CanDriver::attach(bus::DriverHost &host) {
   host_ = &host;
@@ -103,7 +103,7 @@ void CanDriver::executeStart() {
 /// start-up.
 void CanDriver::startOthers() {
   for (size_t i = 0; i < othersFailed_.size(); ++i) {
-    Node &node = master_.node(drives_ + i);
+    Node &node = master_.node(driveNodes_ + i);
     if (othersFailed_[i] || node.started() || master_.busLost())
       continue;
     uint16_t progress = 0;
@@ -118,16 +118,16 @@ void CanDriver::startOthers() {
 /// Those that have failed or are lost begin anew.
 void CanDriver::resetOthers() {
   for (size_t i = 0; i < othersFailed_.size(); ++i) {
-    if (!othersFailed_[i] && master_.node(drives_ + i).loss() == NodeLoss::None)
+    if (!othersFailed_[i] && master_.node(driveNodes_ + i).loss() == NodeLoss::None)
       continue;
-    master_.node(drives_ + i).reset();
+    master_.node(driveNodes_ + i).reset();
     othersFailed_[i] = false;
   }
 }
 
 uint32_t CanDriver::encoder(size_t encoder) const {
   const CanSetup::EncoderSource &source = encoders_[encoder];
-  return source.fault.empty() ? master_.node(source.node).signal(source.signal) : 0;
+  return source.fault.empty() ? master_.node(source.node).signal(source.signal, source.device) : 0;
 }
 
 bool CanDriver::encoderWorks(size_t encoder) const {
@@ -144,8 +144,8 @@ void CanDriver::executeEnd() {
 /// Set values brake the axes; who does not stand then stops by himself. Who stands goes off.
 void CanDriver::stop() {
   stopCycles_ = std::min(stopCycles_ + 1, offPatience_);
-  for (size_t i = 0; i < drives_; ++i) {
-    Drive402 &drive = master_.node(i).drive();
+  for (size_t i = 0; i < places_.size(); ++i) {
+    Drive402 &drive = driveAt(i);
     standing_[i] = drive.commandedToMove() ? 0 : std::min(standing_[i] + 1, kStandingCycles);
     if (standing_[i] == kStandingCycles)
       drive.shutDown();
@@ -160,46 +160,45 @@ bus::StartUp CanDriver::init(size_t drive, uint16_t &progress, bus::Message &mes
     message.set(std::string_view(faults_[drive]));
     return bus::StartUp::Failed;
   }
-  if (master_.busLost() && !master_.node(drive).started()) {
+  if (master_.busLost() && !nodeOf(drive).started()) {
     master_.problem(message);
     return bus::StartUp::Failed;
   }
-  return master_.node(drive).init(progress, message, master_.news());
+  return nodeOf(drive).init(progress, message, master_.news(), places_[drive].device);
 }
 
 void CanDriver::reset(size_t drive) {
-  master_.node(drive).reset();
+  nodeOf(drive).reset(places_[drive].device);
   resetOthers();
 }
 
-bus::DriveStatus CanDriver::status(size_t drive) const { return master_.node(drive).status(); }
+bus::DriveStatus CanDriver::status(size_t drive) const {
+  return nodeOf(drive).status(places_[drive].device);
+}
 
 void CanDriver::command(size_t drive, const bus::DriveCommand &command) {
-  master_.node(drive).drive().command(command);
+  driveAt(drive).command(command);
 }
 
-uint8_t CanDriver::controllerModes(size_t drive) const {
-  return master_.node(drive).drive().controllerModes();
-}
+uint8_t CanDriver::controllerModes(size_t drive) const { return driveAt(drive).controllerModes(); }
 
 uint8_t CanDriver::captureInputs(size_t drive) const {
-  return master_.node(drive).config().drive.probeInputs;
+  return nodeOf(drive).config().device(places_[drive].device).drive.probeInputs;
 }
 
 bool CanDriver::startParameter(size_t drive, const bus::ParameterRequest &request) {
-  if (!master_.node(drive).started())
+  if (!nodeOf(drive).started())
     return false;
-  master_.node(drive).parameters().start(request);
+  nodeOf(drive).parameters(places_[drive].device).start(request);
   return true;
 }
 
 bool CanDriver::pollParameter(size_t drive, bus::ParameterAnswer &answer) {
-  return master_.node(drive).parameters().poll(answer);
+  return nodeOf(drive).parameters(places_[drive].device).poll(answer);
 }
 
 void CanDriver::cancelParameter(size_t drive) {
-  Node &node = master_.node(drive);
-  node.parameters().cancel(node.sdo());
+  nodeOf(drive).cancelParameter(places_[drive].device);
 }
 
 bus::SyncWake CanDriver::waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) {
@@ -235,11 +234,10 @@ bool CanDriver::atRest() const {
     return true;
   if (hasIos_ && stopCycles_ < kIoCycles)
     return false;
-  for (size_t i = 0; i < drives_; ++i) {
-    const Node &node = master_.node(i);
-    if (node.communication() && node.drive().powerState() == PowerState::Enabled)
-      return false;
-    if (node.communication() && !node.drive().atRest())
+  for (size_t i = 0; i < places_.size(); ++i) {
+    if (!nodeOf(i).communication())
+      continue;
+    if (driveAt(i).powerState() == PowerState::Enabled || !driveAt(i).atRest())
       return false;
   }
   return true;

@@ -53,6 +53,15 @@ private:
   void startOthers();
   void stop();
 
+  [[nodiscard]] Node &nodeOf(size_t drive) { return master_.node(places_[drive].node); }
+  [[nodiscard]] const Node &nodeOf(size_t drive) const { return master_.node(places_[drive].node); }
+  [[nodiscard]] Drive402 &driveAt(size_t drive) {
+    return nodeOf(drive).drive(places_[drive].device);
+  }
+  [[nodiscard]] const Drive402 &driveAt(size_t drive) const {
+    return nodeOf(drive).drive(places_[drive].device);
+  }
+
   void showCounters();
 
   Master master_;
@@ -67,7 +76,8 @@ private:
   uint32_t offPatience_;           ///< … until nobody waits any more for them.
   std::vector<uint32_t> standing_; ///< Of each drive: cycles without a demand to move.
   std::vector<CanSetup::EncoderSource> encoders_;
-  size_t drives_;
+  std::vector<CanSetup::DrivePlace> places_; ///< Of each drive.
+  size_t driveNodes_;
   bool hasIos_ = false;
   std::vector<bool> othersFailed_; ///< Of each node after those of the drives.
   bool stopped_ = false;

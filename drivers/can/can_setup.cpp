@@ -86,10 +86,12 @@ void addEncoders(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &
     source.fault = encoder.fault;
     if (!encoder.fault.empty())
       continue;
-    source.node = encoder.drive;
-    source.signal = Signal::SecondPosition;
-    if (encoder.drive != EncoderPlan::kNode)
+    if (encoder.drive != EncoderPlan::kNode) {
+      source.node = result.drives[encoder.drive].node;
+      source.device = result.drives[encoder.drive].device;
+      source.signal = Signal::SecondPosition;
       continue;
+    }
     source.node = result.master.nodes.size();
     source.signal = Signal::EncoderPosition;
     result.master.nodes.push_back(encoderConfig(setup, setup.encoders[i].parameters, encoder));
@@ -160,9 +162,12 @@ void addFileParameters(const bus::GroupSetup &setup, CanSetup &result) {
                              "' with its parameters: it keeps those that it has");
       continue;
     }
-    const ParameterFile file = readParameterFile(*text);
+    const ParameterFile file = readParameterFile(*text, axisOfDrive(setup.drives[i]));
+    const CanSetup::DrivePlace &place = result.drives[i];
+    NodeConfig &node = result.master.nodes[place.node];
+    DeviceConfig &device = place.device == 0 ? node : node.further[place.device - 1];
     for (const SdoWrite &write : file.writes)
-      addOrReplace(result.master.nodes[i].parameters, write);
+      addOrReplace(device.parameters, write);
     if (!file.error.empty())
       result.faults[i] = "the file '" + name + "' with its parameters, " + file.error;
   }
@@ -176,6 +181,33 @@ NodeConfig nobody(const NodeConfig &like) {
   return node;
 }
 
+/// A node for each, or for those that are axes of one device.
+void addDrives(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &result) {
+  std::vector<NodeConfig> &nodes = result.master.nodes;
+  for (size_t i = 0; i < setup.drives.size(); ++i) {
+    const bool works = result.faults[i].empty();
+    const size_t first = deviceOf(setup, i);
+    const bus::SetupParameters &own = setup.drives[i].parameters;
+    NodeConfig node =
+        nodeConfig(setup, setup.drives[first].parameters, plan.drives[i].plan, plan.settings[i]);
+    node.drive = driveConfig(own, setup.cycleSeconds);
+    if (!works)
+      node = nobody(node);
+    node.producesSync = plan.sync == SyncProducer::FirstDrive && i == 0;
+    const auto same = std::find_if(nodes.begin(), nodes.end(), [&](const NodeConfig &one) {
+      return works && one.plan.node == node.plan.node;
+    });
+    result.drives.push_back({static_cast<size_t>(same - nodes.begin()), 0});
+    if (same == nodes.end()) {
+      nodes.push_back(std::move(node));
+      continue;
+    }
+    result.drives.back().device = same->devices();
+    same->further.push_back(node);
+  }
+  result.driveNodes = nodes.size();
+}
+
 } // namespace
 
 CanSetup canSetup(const bus::GroupSetup &setup) {
@@ -184,14 +216,7 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
   const GroupPlan plan = planGroup(setup);
   result.hasSyncDevice = plan.sync == SyncProducer::Device;
   result.faults = plan.faults;
-  for (size_t i = 0; i < setup.drives.size(); ++i) {
-    NodeConfig node =
-        nodeConfig(setup, setup.drives[i].parameters, plan.drives[i].plan, plan.settings[i]);
-    if (!result.faults[i].empty())
-      node = nobody(node);
-    node.producesSync = plan.sync == SyncProducer::FirstDrive && i == 0;
-    master.nodes.push_back(std::move(node));
-  }
+  addDrives(setup, plan, result);
   addFileParameters(setup, result);
   addEncoders(setup, plan, result);
   addIos(setup, plan, result);

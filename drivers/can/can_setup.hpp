@@ -12,7 +12,15 @@
 namespace stride::can {
 
 struct CanSetup {
+  /// Where a drive is: which node, and which of its logical devices.
+  struct DrivePlace {
+    size_t node = 0;
+    size_t device = 0;
+  };
+
   MasterConfig master;
+  std::vector<DrivePlace> drives; ///< Of each drive; their nodes are the first of the master's.
+  size_t driveNodes = 0;          ///< So many nodes are drives.
   BusLoad load;
   std::string interface;           ///< "can0".
   uint32_t bitRate = 1000;         ///< [kBit/s]
@@ -21,6 +29,7 @@ struct CanSetup {
   /// Of each encoder: the node that tells its position, and in which signal.
   struct EncoderSource {
     size_t node = 0;
+    size_t device = 0;
     Signal signal = Signal::EncoderPosition;
     std::string fault; ///< Why it cannot be read; empty: nothing.
   };

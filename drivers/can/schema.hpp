@@ -86,6 +86,10 @@ inline constexpr std::array kBus = {
 };
 
 inline constexpr std::array kDrive = {
+    whole("axis", 0, 7)
+        .defaultsTo(0)
+        .says("which axis of its device it is: one node may be several drives (logical devices of "
+              "CiA 301), each with objects 800h and PDOs 64 after those of the one before"),
     choice("reset", kResets)
         .defaultsTo(kResetCommunication)
         .says("what the drive is told by NMT when its start-up begins"),
@@ -157,9 +161,9 @@ inline constexpr std::array kEncoder = {
     common::Parameter{"second_of", common::ParameterType::DriveName}.says(
         "it is the second encoder of this drive (60E4h:1), in the drive's PDOs, and no node of its "
         "own: `wEncoderId` is without meaning"),
-    kDrive[0].onlyWithout("second_of"),
     kDrive[1].onlyWithout("second_of"),
     kDrive[2].onlyWithout("second_of"),
+    kDrive[3].onlyWithout("second_of"),
     whole("pdo_timeout", 1, 1000, "cycles")
         .defaultsTo(3)
         .onlyWithout("second_of")

@@ -33,9 +33,10 @@ simulation::DataType typeOf(uint32_t bits) {
 }
 
 /// Objects of its maker that it is given at start-up, or has in its own PDOs.
-std::vector<simulation::ObjectRow> moreObjects(const DriveSettings &settings) {
+std::vector<simulation::ObjectRow> moreObjects(const DriveSettings &settings, uint8_t axis = 0) {
   std::vector<simulation::ObjectRow> rows;
-  const auto add = [&rows](Object object, uint32_t bits) {
+  const auto add = [&](Object object, uint32_t bits) {
+    object = ofAxis(object, axis);
     if (object.index >= kDeviceObjects)
       rows.push_back({.index = object.index,
                       .sub = object.sub,
@@ -86,10 +87,20 @@ simulation::Drive402Setup driveSetup(const bus::GroupSetup &setup, const GroupPl
     if (plan.encoders[i].drive == index)
       result.secondEncoder =
           result.drive.unitsPerIncrement * stepsPerUnit(setup.encoders[i].parameters);
-  DriveSettings settings = driveSettings(static_cast<uint8_t>(drive.id), given);
-  settings.startup = can.master.nodes[index].parameters; // with those of a file
-  result.more = moreObjects(settings);
+  result.axis = axisOfDrive(drive);
+  DriveSettings settings = driveSettings(static_cast<uint8_t>(drive.id), given, result.axis);
+  const CanSetup::DrivePlace &place = can.drives[index];
+  settings.startup = can.master.nodes[place.node].device(place.device).parameters; // with a file's
+  result.more = moreObjects(settings, result.axis);
   return result;
+}
+
+/// Further axes of the device that a drive is the first one of.
+void addAxes(const bus::GroupSetup &setup, const GroupPlan &plan, const CanSetup &can, size_t first,
+             simulation::Drive402Setup &device) {
+  for (size_t i = first + 1; i < setup.drives.size(); ++i)
+    if (can.faults[i].empty() && can.drives[i].node == can.drives[first].node)
+      device.further.push_back(driveSetup(setup, plan, can, i));
 }
 
 } // namespace
@@ -116,13 +127,13 @@ std::unique_ptr<simulation::SimulatedEncoder406> makeEncoder(const bus::GroupSet
   const double steps = stepsPerUnit(given);
   result.velocity = given.number("physics.own_velocity") * steps;
   const size_t drive = driveNamed(setup, given.text("physics.follows"));
-  const bool follows = drive < setup.drives.size() && nodes.drives[drive] != nullptr;
+  const bool follows = drive < setup.drives.size() && nodes.axes[drive] != nullptr;
   if (follows)
     result.stepsPerIncrement =
         dummy::driveParameters(setup.drives[drive].parameters).unitsPerIncrement * steps;
   auto node = std::make_unique<simulation::SimulatedEncoder406>(result);
   if (follows)
-    node->follow(nodes.drives[drive].get());
+    node->follow(nodes.axes[drive]);
   return node;
 }
 
@@ -155,10 +166,20 @@ SimulatedNodes simulatedNodes(const bus::GroupSetup &setup) {
   const GroupPlan plan = planGroup(setup);
   SimulatedNodes nodes;
   nodes.drives.resize(setup.drives.size());
-  for (size_t i = 0; i < setup.drives.size(); ++i)
-    if (can.faults[i].empty())
-      nodes.drives[i] =
-          std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup, plan, can, i));
+  nodes.axes.resize(setup.drives.size());
+  std::vector<simulation::SimulatedDrive402 *> devices(can.driveNodes);
+  for (size_t i = 0; i < setup.drives.size(); ++i) {
+    const CanSetup::DrivePlace &place = can.drives[i];
+    if (!can.faults[i].empty())
+      continue;
+    if (place.device == 0) {
+      simulation::Drive402Setup drive = driveSetup(setup, plan, can, i);
+      addAxes(setup, plan, can, i, drive);
+      nodes.drives[i] = std::make_unique<simulation::SimulatedDrive402>(drive);
+      devices[place.node] = nodes.drives[i].get();
+    }
+    nodes.axes[i] = &devices[place.node]->axis(place.device);
+  }
   for (size_t i = 0; i < setup.encoders.size(); ++i)
     if (plan.encoders[i].fault.empty() && plan.encoders[i].drive == EncoderPlan::kNode)
       nodes.encoders.push_back(makeEncoder(setup, setup.encoders[i], nodes));
@@ -221,8 +242,8 @@ void SimulatedNetwork::beginCycle() noexcept {
 }
 
 void SimulatedNetwork::bindData(size_t drive, void *data) {
-  if (nodes_.drives[drive] != nullptr)
-    nodes_.drives[drive]->bind(static_cast<simulation::DriveSim *>(data));
+  if (nodes_.axes[drive] != nullptr)
+    nodes_.axes[drive]->bind(static_cast<simulation::DriveSim *>(data));
 }
 
 } // namespace stride::can

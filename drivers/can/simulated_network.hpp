@@ -19,8 +19,10 @@ namespace stride::can {
 
 /// The nodes of a drive group, simulated.
 struct SimulatedNodes {
-  /// As configured; null: one that cannot be at the bus.
+  /// As configured; null: one that cannot be at the bus, or that is a further axis of one before.
   std::vector<std::unique_ptr<simulation::SimulatedDrive402>> drives;
+  /// As configured; null: one that cannot be at the bus.
+  std::vector<simulation::DriveAxis *> axes;
   /// Those that are nodes; they have to be attached after the drives.
   std::vector<std::unique_ptr<simulation::SimulatedEncoder406>> encoders;
   /// As configured; null: one that cannot be at the bus.
@@ -40,6 +42,7 @@ public:
   void bindData(size_t drive, void *data);
   [[nodiscard]] simulation::SimulatedBus &bus() { return bus_; }
   [[nodiscard]] simulation::SimulatedDrive402 &drive(size_t index) { return *nodes_.drives[index]; }
+  [[nodiscard]] simulation::DriveAxis &axis(size_t index) { return *nodes_.axes[index]; }
 
   void beginCycle() noexcept override;
   SendResult send(const Frame &frame, SendClass sendClass) noexcept override {

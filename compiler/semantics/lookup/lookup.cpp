@@ -5,6 +5,7 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/cam_tables.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/syntax/attributes.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>

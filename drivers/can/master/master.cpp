@@ -4,6 +4,8 @@
 #include "drivers/can/plan/bus_load.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 namespace stride::can {
 namespace {
@@ -17,8 +19,11 @@ constexpr size_t kReserve = 4;
 
 size_t plannedFrames(const MasterConfig &config) {
   size_t frames = 1 + std::max(config.sdoPerCycle, kMostSdosPerCycle);
-  for (const NodeConfig &node : config.nodes)
-    frames += node.plan.tpdoCount + 2U; // heartbeat, EMCY
+  for (const NodeConfig &node : config.nodes) {
+    frames += 2U; // heartbeat, EMCY
+    for (size_t i = 0; i < node.devices(); ++i)
+      frames += node.device(i).plan.tpdoCount;
+  }
   return frames;
 }
 
@@ -36,20 +41,54 @@ Master::Master(const MasterConfig &config, std::unique_ptr<Port> port)
   nodes_.reserve(config.nodes.size());
   for (const NodeConfig &node : config.nodes) {
     nodes_.emplace_back(node);
-    cyclicBits_.push_back(cyclicBits(node.plan));
+    cyclicBits_.push_back(nodes_.back().cyclicBits());
     addRoutes(static_cast<uint8_t>(nodes_.size() - 1));
+    nodes_.back().useCobIds(cobIds_);
   }
   routes_[kSyncCobId] = {Kind::Sync};
   routes_[lss::kAnswerId] = {Kind::Lss};
+  for (const uint16_t one : {kNmtId, kSyncCobId, kTimeId, lss::kAnswerId, lss::kRequestId})
+    cobIds_.set(one);
+  cobIds_.set((kHeartbeatBase + config.node) & Frame::kLastId);
 }
 
 void Master::addRoutes(uint8_t index) {
-  const DrivePlan &plan = config_.nodes[index].plan;
-  routes_[kSdoAnswerBase + plan.node] = {Kind::Sdo, index};
-  routes_[kHeartbeatBase + plan.node] = {Kind::Heartbeat, index};
-  routes_[kEmcyBase + plan.node] = {Kind::Emcy, index};
-  for (uint8_t place = 0; place < plan.tpdoCount; ++place)
-    routes_[plan.tpdos[place].cobId & Frame::kLastId] = {Kind::Tpdo, index, place};
+  const uint8_t number = config_.nodes[index].plan.node;
+  routes_[kSdoAnswerBase + number] = {Kind::Sdo, index};
+  routes_[kHeartbeatBase + number] = {Kind::Heartbeat, index};
+  routes_[kEmcyBase + number] = {Kind::Emcy, index};
+  for (const uint16_t base : {kSdoAnswerBase, kSdoRequestBase, kHeartbeatBase, kEmcyBase})
+    cobIds_.set(base + number);
+  addPdoRoutes(index);
+  for (const LogicalDevice &device : nodes_[index].devices()) {
+    for (const Pdo &pdo : device.plan().sentByDrive())
+      cobIds_.set(pdo.cobId & Frame::kLastId);
+    for (const Pdo &pdo : device.plan().receivedByDrive())
+      cobIds_.set(pdo.cobId & Frame::kLastId);
+  }
+}
+
+void Master::addPdoRoutes(uint8_t index) {
+  const std::span<const LogicalDevice> devices = std::as_const(nodes_[index]).devices();
+  for (size_t i = 0; i < devices.size(); ++i) {
+    const std::span<const Pdo> pdos = devices[i].plan().sentByDrive();
+    for (size_t place = 0; place < pdos.size(); ++place)
+      routes_[pdos[place].cobId & Frame::kLastId] = {Kind::Tpdo, index, static_cast<uint8_t>(place),
+                                                     static_cast<uint8_t>(i)};
+  }
+}
+
+/// A node has, and keeps, other PDOs than planned.
+void Master::useOtherPdos(size_t index) {
+  addPdoRoutes(static_cast<uint8_t>(index));
+  cyclicBits_[index] = nodes_[index].cyclicBits();
+  uint64_t bits = kSyncBits;
+  for (const uint32_t one : cyclicBits_)
+    bits += one;
+  if (config_.bitsPerCycle > 0 && bits > config_.bitsPerCycle)
+    news_.say("with PDOs that nodes do not let be changed, SYNC and PDOs need ",
+              static_cast<uint32_t>(bits), " bits of a cycle, which has ",
+              static_cast<uint32_t>(config_.bitsPerCycle));
 }
 
 void Master::executeStart() {
@@ -72,7 +111,10 @@ void Master::executeStart() {
   // Nodes answer the SYNC of somebody else as well.
   const uint32_t syncs = syncs_ + (config_.givesSync ? 1 : 0);
   bool duplicate = false;
-  for (Node &node : nodes_) {
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    Node &node = nodes_[i];
+    if (node.takePlanChange())
+      useOtherPdos(i);
     node.endReceive(syncs, news_);
     duplicate = duplicate || (node.started() && node.duplicate());
   }
@@ -230,7 +272,7 @@ void Master::take(const Frame &frame) {
   case Kind::None:
     break;
   case Kind::Tpdo:
-    nodes_[route.node].tpdo(route.place, frame);
+    nodes_[route.node].devices()[route.device].tpdo(route.place, frame);
     break;
   case Kind::Sdo:
     nodes_[route.node].sdoAnswer(frame);
@@ -314,9 +356,10 @@ void Master::executeEnd() {
 
 void Master::sendPdos() {
   for (Node &node : nodes_) {
-    for (size_t place = 0; place < node.rpdoCount(); ++place)
-      if (node.rpdoDue(place))
-        node.rpdoSent(place, send(node.rpdo(place), SendClass::Process));
+    for (LogicalDevice &device : node.devices())
+      for (size_t place = 0; place < device.rpdoCount(); ++place)
+        if (device.rpdoDue(place))
+          device.rpdoSent(place, send(device.rpdo(place), SendClass::Process));
     node.endOfPdos(news_);
   }
 }

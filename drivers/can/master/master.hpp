@@ -48,6 +48,9 @@ struct MasterCounters {
 class Master {
 public:
   Master(const MasterConfig &config, std::unique_ptr<Port> port);
+  Master(const Master &) = delete; // its nodes know where it is
+  Master &operator=(const Master &) = delete;
+  ~Master() = default;
 
   void attach(bus::DriverHost &host) { news_.attach(host); }
   [[nodiscard]] bus::News &news() { return news_; }
@@ -86,13 +89,16 @@ private:
   /// For whom a frame is.
   struct Route {
     Kind kind = Kind::None;
-    uint8_t node = 0;  ///< Index.
-    uint8_t place = 0; ///< Tpdo.
+    uint8_t node = 0;   ///< Index.
+    uint8_t place = 0;  ///< Tpdo …
+    uint8_t device = 0; ///< … and of which of the node's logical devices.
   };
 
   static constexpr size_t kNobody = static_cast<size_t>(-1);
 
   void addRoutes(uint8_t index);
+  void addPdoRoutes(uint8_t index);
+  void useOtherPdos(size_t index);
   void giveSync();
   void watchBus();
   void receiveAll();
@@ -120,6 +126,7 @@ private:
   std::vector<Node> nodes_;
   std::vector<uint32_t> cyclicBits_; ///< Of each node's synchronous PDOs.
   std::array<Route, Frame::kLastId + 1> routes_{};
+  CobIdSet cobIds_;              ///< As planned.
   std::vector<Received> frames_; ///< Of a cycle.
   size_t early_ = 0;             ///< Frames that have come while SYNC was awaited.
   MasterCounters counters_;

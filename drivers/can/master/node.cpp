@@ -3,33 +3,18 @@
 #include "drivers/can/master/frames.hpp"
 #include "drivers/can/master/sdo_abort.hpp"
 #include "drivers/can/master/texts.hpp"
+#include "drivers/can/plan/bus_load.hpp"
 
 #include <algorithm>
 
 namespace stride::can {
 namespace {
 
-constexpr double kRefresh = 0.1; ///< RPDOs by event go out at least so often. [s]
-constexpr uint32_t kMostWrong = 3;
-constexpr uint32_t kMostFailedSends = 2;
-
-uint8_t placeBit(size_t place) { return static_cast<uint8_t>(1U << place); }
-
-/// The TPDOs without which nothing is known of a node.
-uint8_t neededPdos(const NodeConfig &config) {
-  const DrivePlan &plan = config.plan;
-  uint8_t needed = 0;
-  for (size_t i = 0; i < plan.tpdoCount; ++i) {
-    const Pdo &pdo = plan.tpdos[i];
-    const bool state =
-        std::any_of(pdo.mapped().begin(), pdo.mapped().end(), [](const PdoEntry &entry) {
-          const Signal signal = signalOf(entry.object);
-          return signal == Signal::Statusword || signal == Signal::EncoderPosition;
-        });
-    if (pdo.synchronous() || state || config.kind == NodeConfig::Kind::Io)
-      needed = needed | placeBit(i);
-  }
-  return needed;
+std::vector<LogicalDevice> devicesOf(const NodeConfig &config) {
+  std::vector<LogicalDevice> devices;
+  for (size_t i = 0; i < config.devices(); ++i)
+    devices.emplace_back(config, i);
+  return devices;
 }
 
 } // namespace
@@ -46,10 +31,9 @@ std::string_view describe(NodeLoss loss) {
 }
 
 Node::Node(const NodeConfig &config)
-    : config_(config), sdo_(config.plan.node, cyclesOf(config.sdoTimeout, config.cycle)),
-      supervision_(config.plan.node), startUp_(config), drive_(config.drive, config.plan),
-      parameters_(config.parameters), refreshCycles_(cyclesOf(kRefresh, config.cycle)),
-      needed_(neededPdos(config)),
+    : config_(config), devices_(devicesOf(config)),
+      sdo_(config.plan.node, cyclesOf(config.sdoTimeout, config.cycle)),
+      supervision_(config.plan.node), startUp_(config),
       seekCycles_(config.lss.wait > 0 ? cyclesOf(config.lss.wait, config.cycle) : 0),
       wantsNumber_(config.lss.wanted) {}
 
@@ -91,50 +75,6 @@ void Node::resetByLss() {
   boots_ = true;
 }
 
-/// FALSE: the frame has another length than it should.
-bool Node::takeOver(size_t place, const Frame &frame) {
-  const Pdo &pdo = config_.plan.tpdos[place];
-  if (!isIo())
-    return decode(pdo, frame, signals_);
-  if (frame.length != pdo.length())
-    return false;
-  if (config_.io.exchange != nullptr)
-    config_.io.exchange->inputs.write(config_.io.tpdoAt[place], frame.bytes());
-  return true;
-}
-
-Frame Node::rpdoFrame(size_t place) const {
-  const Pdo &pdo = config_.plan.rpdos[place];
-  if (!isIo())
-    return encode(pdo, signals_);
-  Frame frame = makeFrame(pdo.cobId, pdo.length());
-  if (config_.io.exchange != nullptr)
-    config_.io.exchange->outputs.read(config_.io.rpdoAt[place],
-                                      std::span(frame.data).first(frame.length));
-  return frame;
-}
-
-void Node::showIo() noexcept {
-  if (!isIo() || config_.io.exchange == nullptr)
-    return;
-  const bool works = communication();
-  if (works)
-    config_.io.exchange->begun.store(true, std::memory_order_relaxed);
-  config_.io.exchange->works.store(works, std::memory_order_release);
-}
-
-void Node::tpdo(size_t place, const Frame &frame) {
-  if (!takeOver(place, frame)) {
-    wrongLength_ = std::min(wrongLength_ + 1, kMostWrong);
-    return;
-  }
-  wrongLength_ = 0;
-  seen_ = seen_ | placeBit(place);
-  atSync_[place] = true;
-  if (arrived_[place] < UINT8_MAX)
-    ++arrived_[place];
-}
-
 void Node::emcy(const Frame &frame, bus::News &news) {
   const uint32_t before = emcy_.count();
   const uint16_t old = emcy_.code();
@@ -157,7 +97,16 @@ void Node::emcy(const Frame &frame, bus::News &news) {
     errors_.ask();
 }
 
-void Node::beginReceive() { arrived_ = {}; }
+void Node::beginReceive() {
+  stepped_ = false;
+  for (LogicalDevice &device : devices_)
+    device.beginReceive();
+}
+
+void Node::syncPassed() {
+  for (LogicalDevice &device : devices_)
+    device.syncPassed();
+}
 
 void Node::endReceive(uint32_t syncs, bus::News &news) {
   sdo_.cycle();
@@ -169,57 +118,43 @@ void Node::endReceive(uint32_t syncs, bus::News &news) {
     serveSdo(news);
   if (phase_ != Phase::Started)
     return;
-  countPdos(syncs);
+  for (LogicalDevice &device : devices_)
+    device.countPdos(syncs);
   watch(news);
   if (isDrive())
-    watchDrive(news);
+    watchDrives(news);
   serveSdo(news);
 }
 
-void Node::watchDrive(bus::News &news) {
-  drive_.read(signals_, emcy_.code() != 0 ? emcy_.code() : errors_.code());
-  drive_.reach(communication());
-  if (drive_.fault() && !fault_)
-    errors_.ask();
-  else if (!drive_.fault())
-    errors_.settle();
-  if (fault_ && !drive_.fault())
-    errors_.gone();
-  fault_ = drive_.fault();
-  if (drive_.velocityDoubtful())
-    news.say("node ", uint32_t{config_.plan.node},
-             ": its velocity (606Ch) does not fit its positions (6064h): check velocity_scale");
-  if (drive_.stuck() && !saidStuck_)
-    news.say("node ", uint32_t{config_.plan.node}, " stays in '", nameOf(drive_.powerState()),
-             "' whatever it is told");
-  saidStuck_ = drive_.stuck();
-}
-
-/// Synchronous TPDOs: one for each SYNC. Late ones come with the next.
-void Node::countPdos(uint32_t syncs) {
-  bool all = true;
-  bool any = false;
-  for (size_t i = 0; i < config_.plan.tpdoCount; ++i) {
-    if (!config_.plan.tpdos[i].synchronous())
-      continue;
-    any = true;
-    all = all && arrived_[i] > 0;
-    balances_[i].count(arrived_[i], std::max(syncs, 1U));
+void Node::watchDrives(bus::News &news) {
+  const uint16_t told = emcy_.code() != 0 ? emcy_.code() : errors_.code();
+  const bool reachable = communication();
+  bool came = false;
+  bool went = false;
+  bool fault = false;
+  for (LogicalDevice &device : devices_) {
+    device.readDrive(told, reachable, config_.plan.node, news);
+    came = came || device.faultCame();
+    went = went || device.faultWent();
+    fault = fault || device.drive().fault();
   }
-  if (any)
-    missing_ = all ? 0 : std::min(missing_ + 1, config_.pdoTimeout);
+  if (came)
+    errors_.ask();
+  if (fault)
+    return;
+  errors_.settle();
+  if (went)
+    errors_.gone();
 }
 
 bool Node::duplicate() const {
-  return std::any_of(balances_.begin(), balances_.end(),
-                     [](const PdoBalance &balance) { return balance.second(); });
+  return std::any_of(devices_.begin(), devices_.end(),
+                     [](const LogicalDevice &device) { return device.duplicate(); });
 }
 
 bool Node::pdosComplete() const {
-  for (size_t i = 0; i < config_.plan.tpdoCount; ++i)
-    if (config_.plan.tpdos[i].synchronous() && !atSync_[i])
-      return false;
-  return true;
+  return std::all_of(devices_.begin(), devices_.end(),
+                     [](const LogicalDevice &device) { return device.pdosComplete(); });
 }
 
 void Node::watch(bus::News &news) {
@@ -230,15 +165,19 @@ void Node::watch(bus::News &news) {
              supervision_.state() != nmt::kOperational)
       lose(NodeLoss::LeftOperational, news);
   }
-  silent_ = supervision_.lost() || missing_ >= config_.pdoTimeout || wrongLength_ >= kMostWrong;
+  const auto wrong = std::any_of(devices_.begin(), devices_.end(),
+                                 [](const LogicalDevice &device) { return device.wrongLength(); });
+  const auto mute = std::find_if(devices_.begin(), devices_.end(),
+                                 [](const LogicalDevice &device) { return device.silent(); });
+  silent_ = supervision_.lost() || mute != devices_.end() || wrong;
   const uint32_t number = config_.plan.node;
   if (silent_ && !saidSilent_ && loss_ == NodeLoss::None) {
-    if (wrongLength_ >= kMostWrong)
+    if (wrong)
       news.say("node ", number, " sends PDOs of another length than they are configured");
     else if (supervision_.lost())
       news.say("node ", number, " is silent: no heartbeat");
     else
-      news.say("node ", number, " is silent: no PDO for ", missing_, " cycles");
+      news.say("node ", number, " is silent: no PDO for ", mute->missing(), " cycles");
   } else if (!silent_ && saidSilent_ && loss_ == NodeLoss::None) {
     news.say("node ", number, " answers again");
   }
@@ -255,69 +194,83 @@ void Node::lose(NodeLoss loss, bus::News &news) {
 
 bool Node::communication() const {
   return phase_ == Phase::Started && loss_ == NodeLoss::None && !silent_ && !late_ &&
-         failedSends_ < kMostFailedSends;
+         std::none_of(devices_.begin(), devices_.end(),
+                      [](const LogicalDevice &device) { return device.sendsFail(); });
 }
 
-bus::DriveStatus Node::status() const {
-  bus::DriveStatus status = drive_.status();
-  status.communication = communication();
+bus::DriveStatus Node::status(size_t place) const {
+  const LogicalDevice &device = devices_[place];
+  bus::DriveStatus status = device.drive().status();
+  status.communication = communication() && device.joined();
   return status;
 }
 
 void Node::makePdos() {
-  if (phase_ != Phase::Started) {
-    for (Rpdo &one : rpdos_)
-      one.due = false;
-    return;
-  }
-  if (isDrive())
-    drive_.write(signals_);
-  for (size_t i = 0; i < config_.plan.rpdoCount; ++i) {
-    const Pdo &pdo = config_.plan.rpdos[i];
-    Rpdo &one = rpdos_[i];
-    one.frame = rpdoFrame(i);
-    if (one.refresh > 0)
-      --one.refresh;
-    one.due = pdo.synchronous() || !one.known || one.frame != one.last || one.refresh == 0;
-  }
-}
-
-void Node::rpdoSent(size_t place, bool taken) {
-  Rpdo &one = rpdos_[place];
-  one.due = !taken;
-  one.known = taken;
-  if (!taken)
-    return;
-  one.last = one.frame;
-  one.refresh = refreshCycles_;
+  for (LogicalDevice &device : devices_)
+    device.makePdos(phase_ == Phase::Started);
 }
 
 void Node::endOfPdos(bus::News &news) {
-  const bool failed =
-      std::any_of(rpdos_.begin(), rpdos_.end(), [](const Rpdo &one) { return one.due; });
-  const uint32_t before = failedSends_;
-  failedSends_ = failed ? std::min(failedSends_ + 1, kMostFailedSends) : 0;
-  if (failedSends_ == kMostFailedSends && before < kMostFailedSends && loss_ == NodeLoss::None)
+  bool failed = false;
+  for (LogicalDevice &device : devices_)
+    failed = device.endOfPdos() || failed;
+  if (failed && loss_ == NodeLoss::None)
     news.say("node ", uint32_t{config_.plan.node},
              " does not get its set values: the queue of the interface is full");
 }
 
-bus::StartUp Node::init(uint16_t &progress, bus::Message &message, bus::News &news) {
-  if (phase_ == Phase::Started)
-    return bus::StartUp::Started;
+bool Node::takePlanChange() {
+  const bool changed = planChanged_;
+  planChanged_ = false;
+  return changed;
+}
+
+uint32_t Node::cyclicBits() const {
+  uint32_t bits = startUp_.unusedBits();
+  for (const LogicalDevice &device : devices_)
+    bits += can::cyclicBits(device.plan());
+  return bits;
+}
+
+bus::StartUp Node::init(uint16_t &progress, bus::Message &message, bus::News &news, size_t place) {
+  const auto bit = static_cast<uint8_t>(1U << place);
+  if (phase_ == Phase::Failed && (told_ & bit) == 0) { // by what another one has found
+    told_ = told_ | bit;
+    message = failure_;
+    return bus::StartUp::Failed;
+  }
+  const bus::StartUp result =
+      phase_ == Phase::Started ? bus::StartUp::Started : step(message, news);
+  progress = startUp_.progress();
+  if (result == bus::StartUp::Started)
+    devices_[place].join();
+  if (result == bus::StartUp::Failed) {
+    failure_ = message;
+    told_ = bit;
+  }
+  return result;
+}
+
+/// One for all its logical devices.
+bus::StartUp Node::step(bus::Message &message, bus::News &news) {
+  if (stepped_)
+    return bus::StartUp::Busy;
+  stepped_ = true;
   if (phase_ != Phase::Starting) {
     reset();
     nmt_ = NmtCommand::None;
     phase_ = Phase::Starting;
     startUp_.begin();
-    facts_ = {};
-    seen_ = 0;
+    for (LogicalDevice &device : devices_)
+      device.beginStartUp();
   }
-  const bool arrived = (seen_ & needed_) == needed_;
+  const bool arrived =
+      std::all_of(devices_.begin(), devices_.end(),
+                  [](const LogicalDevice &device) { return device.pdosArrived(); });
   const bool lssBusy = lssBusy_ || wantsNumber_;
-  const StartParts parts{config_, sdo_, supervision_, facts_, nmt_, arrived, lssBusy, lss_, boots_};
+  const StartParts parts{config_, sdo_, supervision_, devices_, nmt_,        arrived,
+                         lssBusy, lss_, boots_,       cobIds_,  planChanged_};
   const bus::StartUp result = startUp_.step(parts, message);
-  progress = startUp_.progress();
   if (result == bus::StartUp::Failed)
     failed(message);
   else if (result == bus::StartUp::Started)
@@ -343,11 +296,24 @@ void Node::started(bus::News &news) {
   phase_ = Phase::Started;
   errors_.begin();
   bootUps_ = supervision_.bootUps();
-  if (isDrive())
-    drive_.begin(facts_, signals_);
-  for (Rpdo &one : rpdos_)
-    one = {};
+  for (LogicalDevice &device : devices_)
+    device.started();
   sayLacks(news);
+  sayPdos(news);
+}
+
+/// What has not been planned so.
+void Node::sayPdos(bus::News &news) const {
+  const uint32_t number = config_.plan.node;
+  if (startUp_.adapted())
+    news.say("node ", number, ": PDOs that it does not let be changed are used as they are");
+  for (const FixedPdo &pdo : startUp_.unused()) {
+    if (!pdo.transmits)
+      continue;
+    const uint32_t bits = pdo.cyclic() ? worstBits(pdo.length()) : uint32_t{0};
+    news.say("node ", number, ": its TPDO ", uint32_t{pdo.pdo.number},
+             " cannot be switched off: nobody uses it, and it takes ", bits, " bits of a cycle");
+  }
 }
 
 void Node::sayLacks(bus::News &news) const {
@@ -377,14 +343,19 @@ void Node::reset() {
   supervision_.clear();
   emcy_.clear();
   errors_.clear();
-  drive_.end();
-  parameters_.clear();
+  for (LogicalDevice &device : devices_)
+    device.reset();
   user_ = SdoUser::None;
   loss_ = NodeLoss::None;
-  fault_ = silent_ = saidSilent_ = saidStuck_ = false;
-  missing_ = wrongLength_ = failedSends_ = 0;
-  balances_ = {};
-  seen_ = 0;
+  silent_ = saidSilent_ = false;
+  told_ = 0;
+}
+
+void Node::reset(size_t place) {
+  const bool works = phase_ == Phase::Started && loss_ == NodeLoss::None;
+  if (works && devices_.size() > 1 && !devices_[place].joined())
+    return;
+  reset();
 }
 
 /// The SDO channel in operation: first what the drive needs, then its errors, then what programs
@@ -396,7 +367,7 @@ void Node::serveSdo(bus::News &news) {
     const SdoUser user = user_;
     user_ = SdoUser::None;
     if (user == SdoUser::Parameter) {
-      parameters_.finished(sdo_);
+      devices_[asker_].parameters().finished(sdo_);
       if (sdo_.state() == SdoClient::State::Busy) // the second half of a write
         user_ = SdoUser::Parameter;
     } else if (user == SdoUser::Errors) {
@@ -412,18 +383,45 @@ void Node::serveSdo(bus::News &news) {
 }
 
 void Node::serveNext() {
-  const bool works = phase_ == Phase::Started;
-  const bool there = loss_ == NodeLoss::None;
-  const ObjectWish wish = works && there && isDrive() ? drive_.wish() : ObjectWish{};
-  const ObjectWish error = there ? errors_.wish() : ObjectWish{};
-  if (wish.kind != ObjectWish::Kind::None) {
-    beginWish(wish, SdoUser::Drive);
-  } else if (error.kind != ObjectWish::Kind::None) {
-    beginWish(error, SdoUser::Errors);
-  } else if (works && parameters_.wants()) {
-    parameters_.begin(sdo_);
-    user_ = sdo_.state() == SdoClient::State::Busy ? SdoUser::Parameter : SdoUser::None;
+  if (loss_ == NodeLoss::None && phase_ == Phase::Started && isDrive())
+    for (size_t i = 0; i < devices_.size(); ++i) {
+      const size_t place = (nextAsker_ + i) % devices_.size();
+      const ObjectWish wish = devices_[place].drive().wish();
+      if (wish.kind == ObjectWish::Kind::None)
+        continue;
+      asker_ = place;
+      nextAsker_ = (place + 1) % devices_.size();
+      beginWish(wish, SdoUser::Drive, devices_[place].plan().axis);
+      return;
+    }
+  const ObjectWish error = loss_ == NodeLoss::None ? errors_.wish() : ObjectWish{};
+  if (error.kind != ObjectWish::Kind::None) {
+    beginWish(error, SdoUser::Errors, 0);
+    return;
   }
+  if (phase_ == Phase::Started)
+    serveParameters();
+}
+
+void Node::serveParameters() {
+  for (size_t i = 0; i < devices_.size(); ++i) {
+    const size_t place = (nextAsker_ + i) % devices_.size();
+    if (!devices_[place].parameters().wants())
+      continue;
+    asker_ = place;
+    nextAsker_ = (place + 1) % devices_.size();
+    devices_[place].parameters().begin(sdo_);
+    user_ = sdo_.state() == SdoClient::State::Busy ? SdoUser::Parameter : SdoUser::None;
+    return;
+  }
+}
+
+void Node::cancelParameter(size_t place) {
+  if (user_ == SdoUser::Parameter && asker_ != place) {
+    devices_[place].parameters().forget();
+    return;
+  }
+  devices_[place].parameters().cancel(sdo_);
 }
 
 ObjectAnswer Node::objectAnswer() const {
@@ -435,28 +433,41 @@ ObjectAnswer Node::objectAnswer() const {
 
 void Node::errorsAnswered(bus::News &news) {
   const bool missing = !sdo_.timedOut() && isMissing(sdo_.abortCode());
-  errors_.answered(objectAnswer(), missing, config_.plan.node, {emcy_, drive_.errorCode()}, news);
+  errors_.answered(objectAnswer(), missing, config_.plan.node, {emcy_, errorCode()}, news);
+}
+
+/// 603Fh of the first drive that shows a fault.
+uint16_t Node::errorCode() const {
+  for (const LogicalDevice &device : devices_)
+    if (device.drive().errorCode() != 0)
+      return device.drive().errorCode();
+  return 0;
 }
 
 void Node::wishAnswered(bus::News &news) {
   const ObjectAnswer answer = objectAnswer();
-  drive_.answered(wish_, answer);
+  const LogicalDevice &device = devices_[asker_];
+  devices_[asker_].drive().answered(wish_, answer);
   const auto code = static_cast<uint16_t>(answer.value);
-  if (wish_.object == object::kErrorCode && answer.done && code != 0 && code != emcy_.code())
-    news.say("node ", uint32_t{config_.plan.node}, " has a fault: ", errorText(code),
-             " (603Fh = ", HexText(code, 4), ")");
+  if (wish_.object != object::kErrorCode || !answer.done || code == 0 || code == emcy_.code())
+    return;
+  constexpr size_t kPrefix = 3; // 16#
+  const HexText index(ofAxis(object::kErrorCode, device.plan().axis).index, 4);
+  news.say("node ", uint32_t{config_.plan.node}, " has a fault: ", errorText(code), " (",
+           std::string_view(index).substr(kPrefix), "h = ", HexText(code, 4), ")");
 }
 
-void Node::beginWish(const ObjectWish &wish, SdoUser user) {
+void Node::beginWish(const ObjectWish &wish, SdoUser user, uint8_t axis) {
   wish_ = wish;
+  const Object object = ofAxis(wish.object, axis);
   bool begun = false;
   if (wish.kind == ObjectWish::Kind::Read) {
-    begun = sdo_.upload(wish.object, wishBytes_);
+    begun = sdo_.upload(object, wishBytes_);
   } else {
     for (size_t i = 0; i < wishBytes_.size(); ++i)
       wishBytes_[i] = static_cast<uint8_t>(wish.value >> 8 * i);
     const size_t size = std::clamp<size_t>(wish.size, 1, wishBytes_.size());
-    begun = sdo_.download(wish.object, std::span<const uint8_t>(wishBytes_).first(size));
+    begun = sdo_.download(object, std::span<const uint8_t>(wishBytes_).first(size));
   }
   user_ = begun ? user : SdoUser::None;
 }

@@ -1,14 +1,12 @@
-// One node of the bus: its start-up, its PDOs, its SDO channel, and whether it is alive.
+// One node of the bus: its start-up, its logical devices, its SDO channel, and whether it is alive.
 #ifndef STRIDE_DRIVERS_CAN_MASTER_NODE_HPP
 #define STRIDE_DRIVERS_CAN_MASTER_NODE_HPP
 
-#include "drivers/can/master/drive402.hpp"
 #include "drivers/can/master/emcy.hpp"
 #include "drivers/can/master/error_field.hpp"
+#include "drivers/can/master/logical_device.hpp"
 #include "drivers/can/master/lss_assignment.hpp"
 #include "drivers/can/master/node_config.hpp"
-#include "drivers/can/master/parameter_transfer.hpp"
-#include "drivers/can/master/pdo_balance.hpp"
 #include "drivers/can/master/sdo_client.hpp"
 #include "drivers/can/master/start_up.hpp"
 #include "drivers/can/master/supervision.hpp"
@@ -17,6 +15,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace stride::can {
 
@@ -35,30 +35,23 @@ public:
   explicit Node(const NodeConfig &config);
 
   // Frames with its identifiers.
-  void tpdo(size_t place, const Frame &frame);
   void sdoAnswer(const Frame &frame) { sdo_.received(frame); }
   void heartbeat(const Frame &frame) { supervision_.received(frame); }
   void emcy(const Frame &frame, bus::News &news);
 
   /// An I/O device: lets those who use its bytes know whether it works.
-  void showIo() noexcept;
+  void showIo() noexcept { devices_.front().showIo(communication()); }
 
   /// Before the frames of a cycle …
   void beginReceive();
   /// … and after them: judges what has come. `syncs`: that there have been since the last time.
   void endReceive(uint32_t syncs, bus::News &news);
   /// There has been a SYNC.
-  void syncPassed() { atSync_ = {}; }
+  void syncPassed();
   /// All its synchronous TPDOs have come since the last SYNC.
   [[nodiscard]] bool pdosComplete() const;
   /// Makes the RPDOs of the cycle.
   void makePdos();
-
-  /// RPDOs: whether one is due, and how its sending has ended.
-  [[nodiscard]] size_t rpdoCount() const { return config_.plan.rpdoCount; }
-  [[nodiscard]] bool rpdoDue(size_t place) const { return rpdos_[place].due; }
-  [[nodiscard]] const Frame &rpdo(size_t place) const { return rpdos_[place].frame; }
-  void rpdoSent(size_t place, bool taken);
   /// What it is told comes too late, cycle after cycle.
   void setLate(bool late) { late_ = late; }
   /// All RPDOs of the cycle have been tried.
@@ -84,11 +77,16 @@ public:
   /// Nodes of the bus get their numbers.
   void setLssBusy(bool busy) { lssBusy_ = busy; }
 
-  bus::StartUp init(uint16_t &progress, bus::Message &message, bus::News &news);
+  /// One step of its start-up. `place`: for whom of its logical devices; a cycle has one step,
+  /// whoever asks.
+  bus::StartUp init(uint16_t &progress, bus::Message &message, bus::News &news, size_t place = 0);
   void reset();
+  /// One of its logical devices begins anew, and with it the node: but not if it is the last one
+  /// that comes back after the others.
+  void reset(size_t place);
   void lose(NodeLoss loss, bus::News &news);
 
-  [[nodiscard]] bus::DriveStatus status() const;
+  [[nodiscard]] bus::DriveStatus status(size_t place = 0) const;
   [[nodiscard]] bool communication() const;
   [[nodiscard]] bool started() const { return phase_ == Phase::Started; }
   /// In operation, or on the way to it: a reset would undo what it has been told.
@@ -98,67 +96,65 @@ public:
   [[nodiscard]] NodeLoss loss() const { return loss_; }
   /// In operation more synchronous PDOs have come than it may send.
   [[nodiscard]] bool duplicate() const;
-  [[nodiscard]] Drive402 &drive() { return drive_; }
-  [[nodiscard]] const Drive402 &drive() const { return drive_; }
-  [[nodiscard]] ParameterTransfer &parameters() { return parameters_; }
+  [[nodiscard]] std::span<LogicalDevice> devices() { return devices_; }
+  [[nodiscard]] std::span<const LogicalDevice> devices() const { return devices_; }
+  [[nodiscard]] Drive402 &drive(size_t place = 0) { return devices_[place].drive(); }
+  [[nodiscard]] const Drive402 &drive(size_t place = 0) const { return devices_[place].drive(); }
+  [[nodiscard]] ParameterTransfer &parameters(size_t place = 0) {
+    return devices_[place].parameters();
+  }
+  /// The question of a program is given up.
+  void cancelParameter(size_t place);
+  /// Its PDOs are others than before: their identifiers have to be looked at anew. TRUE once.
+  bool takePlanChange();
+  /// What its synchronous PDOs need of a cycle, used or not. [bit]
+  [[nodiscard]] uint32_t cyclicBits() const;
+  /// Identifiers of the bus that are somebody's; lives as long as this.
+  void useCobIds(const CobIdSet &taken) { cobIds_ = &taken; }
   [[nodiscard]] const EmcyRing &emcyRing() const { return emcy_; }
   [[nodiscard]] const NodeConfig &config() const { return config_; }
   [[nodiscard]] uint8_t number() const { return config_.plan.node; }
   /// As its last PDO says.
-  [[nodiscard]] uint32_t signal(Signal signal) const { return signals_.get(signal); }
+  [[nodiscard]] uint32_t signal(Signal signal, size_t place = 0) const {
+    return devices_[place].signal(signal);
+  }
 
 private:
   enum class Phase : uint8_t { Idle, Starting, Started, Failed };
   enum class SdoUser : uint8_t { None, Drive, Errors, Parameter };
 
-  struct Rpdo {
-    Frame frame;
-    Frame last;           ///< That has gone out …
-    uint32_t refresh = 0; ///< … and cycles until it goes out again, by event.
-    bool due = false;
-    bool known = false; ///< The drive has what it was told last.
-  };
-
   void watch(bus::News &news);
-  void watchDrive(bus::News &news);
+  void watchDrives(bus::News &news);
   [[nodiscard]] bool isDrive() const { return config_.kind == NodeConfig::Kind::Drive; }
-  [[nodiscard]] bool isIo() const { return config_.kind == NodeConfig::Kind::Io; }
-  bool takeOver(size_t place, const Frame &frame);
-  [[nodiscard]] Frame rpdoFrame(size_t place) const;
-  void countPdos(uint32_t syncs);
+  bus::StartUp step(bus::Message &message, bus::News &news);
   void started(bus::News &news);
   void serveSdo(bus::News &news);
   void wishAnswered(bus::News &news);
   [[nodiscard]] ObjectAnswer objectAnswer() const;
   void errorsAnswered(bus::News &news);
   void serveNext();
-  void beginWish(const ObjectWish &wish, SdoUser user);
+  void serveParameters();
+  [[nodiscard]] uint16_t errorCode() const;
+  void beginWish(const ObjectWish &wish, SdoUser user, uint8_t axis);
   void sayLacks(bus::News &news) const;
+  void sayPdos(bus::News &news) const;
   void failed(bus::Message &message);
 
   NodeConfig config_;
-  Signals signals_;
+  std::vector<LogicalDevice> devices_; ///< As in `config_`.
   SdoClient sdo_;
   Supervision supervision_;
   EmcyRing emcy_;
   StartUp startUp_;
-  DriveFacts facts_;
-  Drive402 drive_;
-  ParameterTransfer parameters_;
-  std::array<Rpdo, DrivePlan::kMostPdos> rpdos_{};
-  std::array<uint8_t, DrivePlan::kMostPdos> arrived_{}; ///< TPDOs of this cycle, by place …
-  std::array<bool, DrivePlan::kMostPdos> atSync_{};     ///< … and since the last SYNC.
-  std::array<PdoBalance, DrivePlan::kMostPdos> balances_{};
   ErrorField errors_;
-  ObjectWish wish_; ///< Under way.
+  ObjectWish wish_;  ///< Under way, of the first axis …
+  size_t asker_ = 0; ///< … and that logical device's; so are parameters.
+  size_t nextAsker_ = 0;
   std::array<uint8_t, 4> wishBytes_{};
-  uint32_t refreshCycles_;
-  uint32_t missing_ = 0;     ///< Cycles without a synchronous TPDO.
-  uint32_t wrongLength_ = 0; ///< TPDOs of another length, in a row.
-  uint32_t failedSends_ = 0; ///< Cycles in a row in which an RPDO did not go out.
-  uint32_t bootUps_ = 0;     ///< When it had started.
-  uint8_t seen_ = 0;         ///< Bit n: TPDO n has come since its start-up began.
-  uint8_t needed_ = 0;       ///< … those that it must have sent to be started.
+  const CobIdSet *cobIds_ = nullptr;
+  bus::Message failure_; ///< Why it could not start …
+  uint8_t told_ = 0;     ///< … and bit n: logical device n has been told.
+  uint32_t bootUps_ = 0; ///< When it had started.
   NmtCommand nmt_ = NmtCommand::None;
   Phase phase_ = Phase::Idle;
   SdoUser user_ = SdoUser::None;
@@ -169,12 +165,12 @@ private:
   bool wantsNumber_;
   bool lastSeek_ = false; ///< It is not looked for again.
   bool lssBusy_ = false;
-  bool boots_ = false; ///< By LSS it begins anew, and has not booted since.
-  bool fault_ = false; ///< Its drive shows one.
+  bool boots_ = false;   ///< By LSS it begins anew, and has not booted since.
+  bool stepped_ = false; ///< Its start-up has made its step in this cycle.
+  bool planChanged_ = false;
   bool silent_ = false;
   bool late_ = false;
   bool saidSilent_ = false;
-  bool saidStuck_ = false;
 };
 
 } // namespace stride::can

@@ -32,7 +32,15 @@ struct IoConfig {
   std::array<uint16_t, DrivePlan::kMostPdos> tpdoAt{};
 };
 
-struct NodeConfig {
+/// One of the logical devices of a node.
+struct DeviceConfig {
+  DrivePlan plan; ///< With the number of the node.
+  DriveConfig drive;
+  std::vector<SdoWrite> parameters; ///< That it is given at start-up, in this order.
+};
+
+/// A node, and its first logical device.
+struct NodeConfig : DeviceConfig {
   enum class Kind : uint8_t {
     Drive,
     Encoder,    ///< CiA 406.
@@ -43,22 +51,25 @@ struct NodeConfig {
   static constexpr size_t kIdentity = 4;
 
   Kind kind = Kind::Drive;
-  DrivePlan plan;             ///< With the number of the node.
-  uint32_t encoderModulo = 0; ///< What an encoder counts to; 0: 2^32.
-  DriveConfig drive;
+  std::vector<DeviceConfig> further; ///< Drives that are the same node: its other axes.
+  uint32_t encoderModulo = 0;        ///< What an encoder counts to; 0: 2^32.
   IoConfig io;
   double cycle = 0.001; ///< [s]
   Reset reset = Reset::Communication;
   /// 1018h:1 … 1018h:4: vendor, product, revision, serial number; 0: whichever.
   std::array<uint32_t, kIdentity> identity{};
   LssConfig lss;
-  double sdoTimeout = 0.5;          ///< [s]
-  uint32_t pdoTimeout = 3;          ///< Without a synchronous TPDO the node is silent. [cycles]
-  double heartbeat = 0.1;           ///< Of the node and of the master. [s]
-  double guard = 0;                 ///< Node guarding instead of the node's heartbeat; 0: not. [s]
-  uint8_t masterNode = 126;         ///< Whose heartbeat the node watches.
-  bool producesSync = false;        ///< It gives SYNC, as the last thing in its start-up.
-  std::vector<SdoWrite> parameters; ///< That it is given at start-up, in this order.
+  double sdoTimeout = 0.5;   ///< [s]
+  uint32_t pdoTimeout = 3;   ///< Without a synchronous TPDO the node is silent. [cycles]
+  double heartbeat = 0.1;    ///< Of the node and of the master. [s]
+  double guard = 0;          ///< Node guarding instead of the node's heartbeat; 0: not. [s]
+  uint8_t masterNode = 126;  ///< Whose heartbeat the node watches.
+  bool producesSync = false; ///< It gives SYNC, as the last thing in its start-up.
+
+  [[nodiscard]] size_t devices() const { return 1 + further.size(); }
+  [[nodiscard]] const DeviceConfig &device(size_t place) const {
+    return place == 0 ? *this : further[place - 1];
+  }
 };
 
 } // namespace stride::can

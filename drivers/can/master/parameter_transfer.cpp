@@ -81,13 +81,13 @@ std::optional<Object> objectOfParameter(int32_t number) {
 
 int32_t parameterOf(Object object) { return object.index * 256 + object.sub; }
 
-ParameterTransfer::ParameterTransfer(std::span<const SdoWrite> listed) {
+ParameterTransfer::ParameterTransfer(std::span<const SdoWrite> listed, uint8_t axis) : axis_(axis) {
   listed_.reserve(listed.size() + kUsual.size());
   for (const SdoWrite &one : listed)
     if (one.bytes.empty()) // a parameter has 32 bits
       list(one.object, There::Yes);
   for (const Object object : kUsual)
-    list(object, There::Unknown);
+    list(ofAxis(object, axis), There::Unknown);
 }
 
 void ParameterTransfer::list(Object object, There there) {
@@ -178,7 +178,7 @@ void ParameterTransfer::begin(SdoClient &sdo) {
     return;
   }
   // A write needs the object's size: what is known, else what the node says.
-  const ObjectForm form = formOf(object_);
+  const ObjectForm form = formOf(inProfile(object_, axis_));
   if (writes && form.bytes != 0) {
     write(sdo, form.bytes);
     return;
@@ -203,7 +203,7 @@ bool ParameterTransfer::encode(size_t size) {
     word = request_.raw;
     break;
   default:
-    if (!bitsOf(request_.value, size, formOf(object_), word))
+    if (!bitsOf(request_.value, size, formOf(inProfile(object_, axis_)), word))
       return false;
     break;
   }
@@ -236,7 +236,7 @@ void ParameterTransfer::read(size_t size) {
     answer_.raw = static_cast<uint32_t>(word);
     answer_.value = request_.form == ParameterForm::Bool
                         ? (word != 0 ? 1.0 : 0.0)
-                        : numberOf(word, size, formOf(object_).isSigned);
+                        : numberOf(word, size, formOf(inProfile(object_, axis_)).isSigned);
   }
   answer(Result::Done);
 }

@@ -25,14 +25,16 @@ int32_t parameterOf(Object object);
 class ParameterTransfer {
 public:
   /// What programs find by asking for a list: these objects, and then those that drives usually
-  /// have for their configuration, as far as the node has them.
-  explicit ParameterTransfer(std::span<const SdoWrite> listed);
+  /// have for their configuration, as far as the node has them. `axis`: of the device that it is.
+  explicit ParameterTransfer(std::span<const SdoWrite> listed, uint8_t axis = 0);
 
   void start(const bus::ParameterRequest &request);
   /// TRUE once the answer is there.
   bool poll(bus::ParameterAnswer &answer);
   /// The question is given up; `sdo`: of the node.
   void cancel(SdoClient &sdo);
+  /// The same, while the node's SDO channel works for somebody else.
+  void forget() { step_ = Step::Idle; }
   /// The node starts anew: what was asked stays without an answer.
   void clear();
 
@@ -75,6 +77,7 @@ private:
   bus::ParameterRequest request_;
   bus::ParameterAnswer answer_;
   Object object_;
+  uint8_t axis_;
   size_t probe_ = 0; ///< The place in the list that is looked for.
   Step step_ = Step::Idle;
 };

@@ -50,8 +50,18 @@ Period periodOf(double seconds) {
 
 class List {
 public:
-  void add(StartOp op, uint8_t progress, const SdoWrite &object = {}) {
-    steps_.push_back({op, progress, object});
+  /// `object`: of the first axis.
+  void add(StartOp op, uint8_t progress, SdoWrite object = {}) {
+    object.object = ofAxis(object.object, axis_);
+    addAsIs(op, progress, object);
+  }
+  void addAsIs(StartOp op, uint8_t progress, const SdoWrite &object) {
+    steps_.push_back({op, progress, object, device_});
+  }
+  /// What is added now is of that logical device.
+  void of(size_t device, uint8_t axis) {
+    device_ = static_cast<uint8_t>(device);
+    axis_ = axis;
   }
   /// Writes whose progress goes from one number to the next.
   void addWrites(std::span<const SdoWrite> writes, uint8_t from, uint8_t to) {
@@ -59,27 +69,25 @@ public:
       const auto progress =
           static_cast<uint8_t>(from + i * static_cast<size_t>(to - from) / writes.size());
       if (writes[i].keepNoRemote)
-        add(StartOp::NoRemote, progress, optional(writes[i].object));
-      add(StartOp::Write, progress, writes[i]);
+        addAsIs(StartOp::NoRemote, progress, optional(writes[i].object));
+      addAsIs(StartOp::Write, progress, writes[i]);
     }
   }
   std::vector<StartStep> take() { return std::move(steps_); }
 
 private:
   std::vector<StartStep> steps_;
+  uint8_t device_ = 0;
+  uint8_t axis_ = 0;
 };
 
-void addChecks(List &list, const NodeConfig &config) {
-  list.add(StartOp::DeviceType, kDeviceType, {object::kDeviceType});
-  for (size_t i = 0; i < NodeConfig::kIdentity; ++i)
-    if (config.identity[i] != 0)
-      list.add(StartOp::Identity, kIdentityStep,
-               {{object::kIdentity, static_cast<uint8_t>(i + 1)}, 4, config.identity[i]});
-  if (config.kind != NodeConfig::Kind::Drive) {
-    if (config.kind == NodeConfig::Kind::Encoder)
-      list.add(StartOp::EncoderRange, kIdentityStep, optional(object::kEncoderRange));
-    return;
-  }
+/// A part of the whole from `from` to `to`: the n-th of so many.
+uint8_t share(uint8_t from, uint8_t to, size_t n, size_t count) {
+  return static_cast<uint8_t>(from + n * static_cast<size_t>(to - from) / count);
+}
+
+/// Of one of its logical devices, which is a drive.
+void addDriveChecks(List &list, const DeviceConfig &config) {
   list.add(StartOp::SupportedModes, kIdentityStep, optional(object::kSupportedModes));
   constexpr uint8_t kTorque = cyclic::kTorque;
   if (((config.plan.sent | config.plan.received) & kTorque) != 0 && config.drive.torqueRated == 0)
@@ -92,26 +100,61 @@ void addChecks(List &list, const NodeConfig &config) {
   }
 }
 
+void addChecks(List &list, const NodeConfig &config) {
+  const bool drive = config.kind == NodeConfig::Kind::Drive;
+  list.add(StartOp::DeviceType, kDeviceType, {object::kDeviceType});
+  for (size_t i = 0; drive && i < config.devices(); ++i) {
+    list.of(i, config.device(i).plan.axis);
+    list.add(StartOp::AxisType, kDeviceType, optional(object::kAxisType));
+  }
+  list.of(0, config.plan.axis);
+  for (size_t i = 0; i < NodeConfig::kIdentity; ++i)
+    if (config.identity[i] != 0)
+      list.add(StartOp::Identity, kIdentityStep,
+               {{object::kIdentity, static_cast<uint8_t>(i + 1)}, 4, config.identity[i]});
+  if (config.kind == NodeConfig::Kind::Encoder)
+    list.add(StartOp::EncoderRange, kIdentityStep, optional(object::kEncoderRange));
+  for (size_t i = 0; drive && i < config.devices(); ++i) {
+    list.of(i, config.device(i).plan.axis);
+    addDriveChecks(list, config.device(i));
+  }
+}
+
 void addConfiguration(List &list, const NodeConfig &config) {
-  std::vector<SdoWrite> writes = pdoWrites(config.plan);
-  const size_t pdos = writes.size();
-  writes.insert(writes.end(), config.parameters.begin(), config.parameters.end());
-  const ConfigurationStamp stamp = stampOf(writes);
+  std::vector<SdoWrite> all;
+  const size_t count = config.devices();
+  for (size_t i = 0; i < count; ++i) {
+    const std::vector<SdoWrite> pdos = pdoWrites(config.device(i).plan);
+    all.insert(all.end(), pdos.begin(), pdos.end());
+  }
+  for (size_t i = 0; i < count; ++i)
+    all.insert(all.end(), config.device(i).parameters.begin(), config.device(i).parameters.end());
+  const ConfigurationStamp stamp = stampOf(all);
   const Object date = {object::kConfigurationDate, 1};
   const Object time = {object::kConfigurationDate, 2};
+  list.of(0, config.plan.axis);
   list.add(StartOp::StampDate, kStampStep, optional(date, 4, stamp.date));
   list.add(StartOp::StampTime, kStampStep, optional(time, 4, stamp.time));
-  const std::span<const SdoWrite> all = writes;
-  list.addWrites(all.first(pdos), kPdoSteps, kParameterSteps);
-  list.addWrites(all.subspan(pdos), kParameterSteps, kModeSteps);
+  for (size_t i = 0; i < count; ++i) {
+    list.of(i, config.device(i).plan.axis);
+    list.addWrites(pdoWrites(config.device(i).plan), share(kPdoSteps, kParameterSteps, i, count),
+                   share(kPdoSteps, kParameterSteps, i + 1, count));
+    list.add(StartOp::CheckPdos, share(kPdoSteps, kParameterSteps, i + 1, count));
+  }
+  for (size_t i = 0; i < count; ++i) {
+    list.of(i, config.device(i).plan.axis);
+    list.addWrites(config.device(i).parameters, share(kParameterSteps, kModeSteps - 1, i, count),
+                   share(kParameterSteps, kModeSteps - 1, i + 1, count));
+  }
+  list.of(0, config.plan.axis);
   list.add(StartOp::Write, kModeSteps - 1, optional(date, 4, stamp.date));
   list.add(StartOp::Write, kModeSteps - 1, optional(time, 4, stamp.time));
 }
 
-void addModes(List &list, const NodeConfig &config) {
+void addModes(List &list, const DeviceConfig &config, double cycle) {
   if (config.drive.homesItself)
     list.add(StartOp::HomeOffset, kModeSteps, optional(object::kHomeOffset));
-  const Period period = periodOf(config.cycle);
+  const Period period = periodOf(cycle);
   constexpr uint16_t kPeriod = object::kInterpolationPeriod;
   list.add(StartOp::Write, kModeSteps, optional({kPeriod, 1}, 1, period.mantissa));
   list.add(StartOp::Write, kModeSteps,
@@ -162,8 +205,10 @@ std::vector<StartStep> startSteps(const NodeConfig &config) {
   if (served) {
     addChecks(list, config);
     addConfiguration(list, config);
-    if (drive)
-      addModes(list, config);
+    for (size_t i = 0; drive && i < config.devices(); ++i) {
+      list.of(i, config.device(i).plan.axis);
+      addModes(list, config.device(i), config.cycle);
+    }
     addSupervision(list, config);
   }
   list.add(StartOp::Start, kStartStep);

@@ -11,22 +11,6 @@ namespace {
 constexpr double kPatience = 2;             // s
 constexpr uint8_t kAfterConfiguration = 60; // the progress of what comes then
 
-/// What a node must be.
-struct ProfileRow {
-  NodeConfig::Kind kind;
-  uint32_t profile;
-  std::string_view number; ///< … as 1000h shows it.
-  std::string_view text;
-};
-constexpr std::array<ProfileRow, 3> kProfiles = {
-    {{NodeConfig::Kind::Drive, 402, "0192", " is no drive of CiA 402"},
-     {NodeConfig::Kind::Encoder, 406, "0196", " is no encoder of CiA 406"},
-     {NodeConfig::Kind::Io, 401, "0191", " is no I/O device of CiA 401"}}};
-const ProfileRow &profileOf(NodeConfig::Kind kind) {
-  return *std::find_if(kProfiles.begin(), kProfiles.end() - 1,
-                       [kind](const ProfileRow &row) { return row.kind == kind; });
-}
-
 /// How a step is made.
 enum class Manner : uint8_t {
   Act,   ///< At once, or by waiting for something.
@@ -37,11 +21,12 @@ struct OpRow {
   StartOp op;
   Manner manner;
 };
-constexpr std::array<OpRow, 23> kOps = {{
+constexpr std::array<OpRow, 25> kOps = {{
     {StartOp::Lss, Manner::Act},
     {StartOp::Reset, Manner::Act},
     {StartOp::BootUp, Manner::Act},
     {StartOp::DeviceType, Manner::Read},
+    {StartOp::AxisType, Manner::Read},
     {StartOp::Identity, Manner::Read},
     {StartOp::SupportedModes, Manner::Read},
     {StartOp::RatedTorque, Manner::Read},
@@ -54,6 +39,7 @@ constexpr std::array<OpRow, 23> kOps = {{
     {StartOp::StampTime, Manner::Read},
     {StartOp::NoRemote, Manner::Read},
     {StartOp::Write, Manner::Write},
+    {StartOp::CheckPdos, Manner::Act},
     {StartOp::WriteConsumer, Manner::Write},
     {StartOp::WriteMode, Manner::Write},
     {StartOp::ReadMode, Manner::Read},
@@ -94,13 +80,17 @@ uint32_t numberOf(std::span<const uint8_t> bytes) {
 
 StartUp::StartUp(const NodeConfig &config)
     : steps_(startSteps(config)), patience_(cyclesOf(kPatience, config.cycle)),
-      node_(config.plan.node) {}
+      node_(config.plan.node) {
+  unused_.reserve(2 * DrivePlan::kMostPdos * config.devices());
+}
 
 void StartUp::begin() {
   go(0);
   bootUps_ = 0;
   noRemote_ = 0;
-  stampFits_ = false;
+  stampFits_ = adapted_ = several_ = false;
+  unused_.clear();
+  mismatch_ = {};
   lacksConsumer_ = false;
   lacksHeartbeat_ = false;
   lacksErrorValues_ = false;
@@ -110,8 +100,23 @@ void StartUp::go(size_t place) {
   place_ = place;
   waited_ = 0;
   asked_ = false;
-  compares_ = false;
+  compares_ = inspects_ = false;
   measured_ = 0;
+}
+
+/// There is nothing to be done for this node: no cycle is lost with it.
+bool StartUp::isIdle() const {
+  switch (now().op) {
+  case StartOp::AxisType:
+    return !several_ && axisOf(now().object.object) == 0;
+  case StartOp::CheckPdos:
+    return !adapted_;
+  case StartOp::Write: // whoever trusts that stamp would not look at its PDOs
+    return now().object.object.index == object::kConfigurationDate &&
+           (adapted_ || !unused_.empty());
+  default:
+    return false;
+  }
 }
 
 uint8_t StartUp::progress() const {
@@ -132,6 +137,8 @@ bus::StartUp StartUp::step(const StartParts &parts, bus::Message &message) {
   if (outcome == Outcome::Failed)
     return bus::StartUp::Failed;
   if (outcome == Outcome::Next)
+    go(place_ + 1);
+  while (outcome == Outcome::Next && place_ < steps_.size() && isIdle())
     go(place_ + 1);
   return place_ >= steps_.size() ? bus::StartUp::Started : bus::StartUp::Busy;
 }
@@ -183,6 +190,8 @@ StartUp::Outcome StartUp::act(const StartParts &parts, bus::Message &message) {
   case StartOp::Start:
     parts.nmt = NmtCommand::Start;
     return Outcome::Next;
+  case StartOp::CheckPdos:
+    return checkPdos(parts, message);
   case StartOp::Operational:
     return await(parts.supervision.kind() == Supervision::Kind::None ||
                      parts.supervision.state() == nmt::kOperational,
@@ -242,38 +251,45 @@ void StartUp::supervise(const StartParts &parts) const {
     parts.supervision.begin(Supervision::Kind::Heartbeat, cyclesOf(config.heartbeat, config.cycle));
 }
 
-uint32_t StartUp::valueOf(const SdoWrite &write, const DriveFacts &facts) const {
+uint32_t StartUp::valueOf(const SdoWrite &write, const StartParts &parts) const {
   constexpr uint32_t kTarget = 0x607A0020;
   constexpr uint32_t kInterpolated = 0x60C10120;
-  const bool maps = write.object.index >= object::kRpdoMapping &&
-                    write.object.index < object::kRpdoMapping + DrivePlan::kMostPdos;
-  if (maps && write.value == kTarget && write.object.sub != 0 &&
-      modeFor(kPositionControl, facts.supportedModes) == mode::kInterpolatedPosition)
-    return kInterpolated;
+  LogicalDevice &device = parts.devices[now().device];
+  const uint32_t axis = uint32_t{kAxisObjects} * device.plan().axis << 16U;
+  const bool maps =
+      write.object.index >= object::kRpdoMapping && write.object.index < object::kTpdoCommunication;
+  if (maps && write.value == kTarget + axis && write.object.sub != 0 &&
+      modeFor(kPositionControl, device.facts().supportedModes) == mode::kInterpolatedPosition)
+    return kInterpolated + axis;
   return write.keepNoRemote ? write.value | noRemote_ : write.value;
 }
 
 /// The first of the modes that set values and drive allow.
 bool StartUp::chooseMode(const StartParts &parts, bus::Message &message) {
-  const NodeConfig &config = parts.config;
-  const bool torque = config.drive.torqueRated > 0 || parts.facts.ratedTorque > 0;
+  const DeviceConfig &config = parts.config.device(now().device);
+  DriveFacts &facts = parts.devices[now().device].facts();
+  const bool torque = config.drive.torqueRated > 0 || facts.ratedTorque > 0;
   for (const uint8_t one : {kPositionControl, kVelocityControl, kTorqueControl}) {
-    const int8_t mode = modeFor(one, parts.facts.supportedModes);
+    const int8_t mode = modeFor(one, facts.supportedModes);
     if ((config.plan.controllerModes >> one & 1U) == 0 || mode == mode::kNone ||
         (one == kTorqueControl && !torque))
       continue;
-    parts.facts.mode = mode;
+    facts.mode = mode;
     return true;
   }
   message.set("node ", uint32_t{node_}, " has no mode of operation for its set values (",
-              ObjectText(object::kSupportedModes), " = ", HexText(parts.facts.supportedModes, 8),
-              ")");
+              ObjectText(ofAxis(object::kSupportedModes, config.plan.axis)), " = ",
+              HexText(facts.supportedModes, 8), ")");
   if (!torque && (config.plan.controllerModes >> kTorqueControl & 1U) != 0)
     message.append(", or torque_rated is missing");
   return false;
 }
 
 StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
+  if (inspects_) {
+    asked_ = parts.sdo.upload(inspection_.wish(), bytes_);
+    return Outcome::Busy;
+  }
   const SdoWrite &object = now().object;
   const bool measures = object.length() == 0 && measured_ == 0; // before it is written
   if (mannerOf(now().op) == Manner::Read || compares_ || (now().op == StartOp::Write && measures)) {
@@ -284,11 +300,11 @@ StartUp::Outcome StartUp::ask(const StartParts &parts, bus::Message &message) {
     asked_ = parts.sdo.download(object.object, object.bytes);
     return Outcome::Busy;
   }
-  uint32_t value = valueOf(object, parts.facts);
+  uint32_t value = valueOf(object, parts);
   if (now().op == StartOp::WriteMode) {
     if (!chooseMode(parts, message))
       return Outcome::Failed;
-    value = static_cast<uint8_t>(parts.facts.mode);
+    value = static_cast<uint8_t>(parts.devices[now().device].facts().mode);
   }
   for (size_t i = 0; i < bytes_.size(); ++i)
     bytes_[i] = static_cast<uint8_t>(value >> 8 * i);
@@ -307,6 +323,8 @@ StartUp::Outcome StartUp::answered(const StartParts &parts, bus::Message &messag
   default:
     break;
   }
+  if (inspects_)
+    return inspected(parts, message);
   if (now().op == StartOp::Write && now().object.length() == 0 && measured_ == 0)
     return measured(parts, message);
   if (mannerOf(now().op) == Manner::Write && !compares_)
@@ -335,6 +353,8 @@ StartUp::Outcome StartUp::measured(const StartParts &parts, bus::Message &messag
 StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message) {
   const uint32_t code = parts.sdo.abortCode();
   const SdoWrite &object = now().object;
+  if (inspects_ && object.optional && !parts.sdo.timedOut())
+    return inspected(parts, message);
   if (object.optional && !parts.sdo.timedOut() && isMissing(code)) {
     lacksConsumer_ = lacksConsumer_ || now().op == StartOp::WriteConsumer;
     lacksHeartbeat_ = lacksHeartbeat_ || object.object == Object{object::kProducerHeartbeat, 0};
@@ -342,7 +362,7 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
     noRemote_ = now().op == StartOp::NoRemote ? 0 : noRemote_;
     return Outcome::Next;
   }
-  if (isFixedPdo(parts.sdo))
+  if (!inspects_ && isFixedPdo(parts.sdo))
     return fixedPdo(object);
   message.set("node ", uint32_t{node_});
   if (parts.sdo.timedOut() && now().op == StartOp::DeviceType) {
@@ -352,10 +372,10 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
     return Outcome::Failed;
   }
   message.append(", ");
-  message.append(ObjectText(object.object));
-  if (mannerOf(now().op) == Manner::Write && object.bytes.empty()) {
+  message.append(ObjectText(inspects_ ? inspection_.wish() : object.object));
+  if (mannerOf(now().op) == Manner::Write && object.bytes.empty() && !inspects_) {
     message.append(" := ");
-    message.append(HexText(valueOf(object, parts.facts)));
+    message.append(HexText(valueOf(object, parts)));
   }
   message.append(": ");
   message.append(abortRow(code).text);
@@ -365,61 +385,16 @@ StartUp::Outcome StartUp::refused(const StartParts &parts, bus::Message &message
   return Outcome::Failed;
 }
 
-StartUp::Outcome StartUp::checkType(const NodeConfig &config, uint32_t value,
-                                    bus::Message &message) const {
-  constexpr uint32_t kProfile = 0xFFFF;
-  const ProfileRow &row = profileOf(config.kind);
-  if ((value & kProfile) == row.profile)
-    return Outcome::Next;
-  message.set("node ", uint32_t{node_}, row.text, ": its device type (",
-              ObjectText(object::kDeviceType), ") is ", HexText(value, 8), " and not 16#....",
-              row.number);
-  return Outcome::Failed;
-}
-
-StartUp::Outcome StartUp::checkIdentity(uint32_t value, bus::Message &message) const {
-  const SdoWrite &expected = steps_[place_].object;
-  if (value == expected.value)
-    return Outcome::Next;
-  message.set("node ", uint32_t{node_}, " is another device: ", ObjectText(expected.object), " is ",
-              HexText(value, 8), ", expected ", HexText(expected.value, 8));
-  return Outcome::Failed;
-}
-
-/// Positions are counted beyond 32 bits by what goes round at 2^32.
-StartUp::Outcome StartUp::checkRange(uint32_t value, bus::Message &message) const {
-  constexpr uint32_t kLowest = 0x80000000;
-  constexpr uint32_t kHighest = 0x7FFFFFFF;
-  const bool whole = rangeLow_ == kLowest && value == kHighest;
-  if (whole || (rangeLow_ == 0 && value == 0))
-    return Outcome::Next;
-  message.set("node ", uint32_t{node_},
-              " limits the range of positions (16#607B: ", HexText(rangeLow_, 8), " to ",
-              HexText(value, 8), "): it must be off (both 0) or all 32 bits");
-  return Outcome::Failed;
-}
-
-/// Where an encoder wraps, or its position would jump there.
-StartUp::Outcome StartUp::checkEncoder(const NodeConfig &config, uint32_t value,
-                                       bus::Message &message) const {
-  const bool whole = value == 0 || value == UINT32_MAX;
-  if (value == config.encoderModulo || (whole && config.encoderModulo == 0))
-    return Outcome::Next;
-  message.set("node ", uint32_t{node_}, " counts to ", value, " (",
-              ObjectText(object::kEncoderRange), "): dwEncoderModulo must be that, and is ",
-              config.encoderModulo);
-  return Outcome::Failed;
-}
-
 StartUp::Outcome StartUp::awaitMode(const StartParts &parts, uint32_t value,
                                     bus::Message &message) {
-  if (static_cast<int8_t>(value) == parts.facts.mode)
+  const int8_t mode = parts.devices[now().device].facts().mode;
+  if (static_cast<int8_t>(value) == mode)
     return Outcome::Next;
   asked_ = false; // once more
   if (waited_ < patience_)
     return Outcome::Busy;
   message.set("node ", uint32_t{node_}, " does not take mode of operation ",
-              static_cast<uint32_t>(parts.facts.mode), ": it shows ", HexText(value, 2));
+              static_cast<uint32_t>(mode), ": it shows ", HexText(value, 2));
   return Outcome::Failed;
 }
 
@@ -432,10 +407,12 @@ void StartUp::skipConfiguration() {
 }
 
 StartUp::Outcome StartUp::taken(const StartParts &parts, uint32_t value, bus::Message &message) {
-  DriveFacts &facts = parts.facts;
+  DriveFacts &facts = parts.devices[now().device].facts();
   switch (now().op) {
   case StartOp::DeviceType:
     return checkType(parts.config, value, message);
+  case StartOp::AxisType:
+    return checkAxisType(value, message);
   case StartOp::Identity:
     return checkIdentity(value, message);
   case StartOp::SupportedModes:

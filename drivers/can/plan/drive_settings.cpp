@@ -154,8 +154,8 @@ const TypeRow *typeOf(std::string_view name) {
 }
 
 /// "35", "SINT#35", "WORD#16#1F".
-bool valueOf(std::string_view text, SdoWrite &write, std::string &error) {
-  const ObjectForm known = formOf(write.object);
+bool valueOf(std::string_view text, SdoWrite &write, std::string &error, uint8_t axis) {
+  const ObjectForm known = formOf(inProfile(write.object, axis));
   ObjectForm form = known;
   const size_t mark = text.find('#');
   const std::string_view name = text.substr(0, mark == std::string_view::npos ? 0 : mark);
@@ -200,8 +200,9 @@ std::string lengthFault(const Pdo &pdo) {
 
 class PdoReader {
 public:
-  PdoReader(uint8_t node, const common::SetupParameters &given, std::vector<std::string> &errors)
-      : given_(given), errors_(errors), node_(node) {}
+  PdoReader(uint8_t node, uint8_t axis, const common::SetupParameters &given,
+            std::vector<std::string> &errors)
+      : given_(given), errors_(errors), node_(node), axis_(axis) {}
 
   std::vector<Pdo> read(bool transmits) {
     std::vector<Pdo> pdos;
@@ -210,9 +211,8 @@ public:
       if (!given_.given(table + ".map"))
         continue;
       Pdo &pdo = pdos.emplace_back();
-      pdo.number = number;
-      pdo.cobId = static_cast<uint16_t>((transmits ? kTpdoBase : kRpdoBase) +
-                                        (number - 1) * kNextPdo + node_);
+      pdo.number = static_cast<uint16_t>(kAxisPdos * axis_ + number);
+      pdo.cobId = predefinedId(transmits ? kTpdoBase : kRpdoBase, number - 1U, node_, axis_);
       readTiming(table, pdo, transmits);
       readMap(table, pdo, transmits);
     }
@@ -237,7 +237,7 @@ private:
     for (const std::string &line : linesOf(given_.text(table + ".map"))) {
       PdoEntry entry;
       std::string error;
-      if (!parseEntry(line, entry, error))
+      if (!parseEntry(line, entry, error, axis_))
         errors_.push_back("`" + line + "` in `" + table + "`: " + error);
       else if (!transmits && isTold(entry.object))
         errors_.push_back("`" + line + "` in `" + table + "`: the drive tells it and is not told");
@@ -257,33 +257,55 @@ private:
   const common::SetupParameters &given_;
   std::vector<std::string> &errors_;
   uint8_t node_;
+  uint8_t axis_;
 };
+
+std::string hexadecimal(uint16_t index) {
+  std::string text;
+  for (unsigned shift = 16; shift > 0; shift -= 4)
+    text += "0123456789ABCDEF"[index >> (shift - 4) & 0xFU];
+  return text + "h";
+}
 
 } // namespace
 
-std::string_view ownerOf(Object object) {
+std::string foreignAxis(Object object, uint8_t axis) {
+  const uint8_t other = axisOf(object);
+  if (axis == 0 || other == axis || other == kMostAxes)
+    return {};
+  return "this object is of axis " + std::to_string(other) + ": of axis " + std::to_string(axis) +
+         " it is " + hexadecimal(ofAxis(inProfile(object, other), axis).index);
+}
+
+std::string_view ownerOf(Object object, uint8_t axis) {
+  object = inProfile(object, axis);
   for (const OwnedRow &row : kOwned)
     if (object.index >= row.first && object.index <= row.last)
       return row.by;
   return {};
 }
 
-bool parseStartUp(std::string_view text, SdoWrite &write, std::string &error) {
+bool parseStartUp(std::string_view text, SdoWrite &write, std::string &error, uint8_t axis) {
   const size_t sign = text.find(":=");
   if (sign == std::string_view::npos)
     return fail(error, "an entry is an object and its value: \"6098h := 35\"");
   write = {};
   if (!objectOf(trimmed(text.substr(0, sign)), write.object, nullptr, error))
     return false;
-  if (const std::string_view owner = ownerOf(write.object); !owner.empty())
+  if (const std::string_view owner = ownerOf(write.object, axis); !owner.empty())
     return fail(error, "what is written there is the matter of " + std::string(owner));
-  return valueOf(trimmed(text.substr(sign + 2)), write, error);
+  if (std::string foreign = foreignAxis(write.object, axis); !foreign.empty())
+    return fail(error, std::move(foreign));
+  return valueOf(trimmed(text.substr(sign + 2)), write, error, axis);
 }
 
-bool parseEntry(std::string_view text, PdoEntry &entry, std::string &error) {
+bool parseEntry(std::string_view text, PdoEntry &entry, std::string &error, uint8_t axis) {
   std::optional<uint64_t> bits;
   if (!objectOf(trimmed(text), entry.object, &bits, error))
     return false;
+  if (std::string foreign = foreignAxis(entry.object, axis); !foreign.empty())
+    return fail(error, std::move(foreign));
+  entry.object = inProfile(entry.object, axis);
   const uint32_t known = 8U * formOf(entry.object).bytes;
   if (!bits && known == 0)
     return fail(error, "the length of this object is not known here: write its bits, as in "
@@ -296,17 +318,17 @@ bool parseEntry(std::string_view text, PdoEntry &entry, std::string &error) {
   return true;
 }
 
-DriveSettings driveSettings(uint8_t node, const common::SetupParameters &given) {
+DriveSettings driveSettings(uint8_t node, const common::SetupParameters &given, uint8_t axis) {
   DriveSettings settings;
   for (const std::string &line : linesOf(given.text("startup"))) {
     SdoWrite write;
     std::string error;
-    if (parseStartUp(line, write, error))
+    if (parseStartUp(line, write, error, axis))
       settings.startup.push_back(write);
     else
       settings.errors.push_back("`" + line + "` in `startup`: " + error);
   }
-  PdoReader reader(node, given, settings.errors);
+  PdoReader reader(node, axis, given, settings.errors);
   settings.rpdos = reader.read(false);
   settings.tpdos = reader.read(true);
   return settings;

@@ -22,16 +22,22 @@ struct DriveSettings {
   std::vector<std::string> errors;
 };
 
-DriveSettings driveSettings(uint8_t node, const common::SetupParameters &given);
+/// `axis`: of the device that the drive is, as `axis` says.
+DriveSettings driveSettings(uint8_t node, const common::SetupParameters &given, uint8_t axis = 0);
 
-/// "6098h := 35", "2031h:2 := UINT#16#1F4". False: `error` says why.
-bool parseStartUp(std::string_view text, SdoWrite &write, std::string &error);
+/// "6098h := 35", "2031h:2 := UINT#16#1F4"; the object is that of the device. False: `error` says
+/// why.
+bool parseStartUp(std::string_view text, SdoWrite &write, std::string &error, uint8_t axis = 0);
 
-/// Who else decides about an object, for messages; empty: nobody.
-std::string_view ownerOf(Object object);
+/// Who else decides about an object of the device, for messages; empty: nobody.
+std::string_view ownerOf(Object object, uint8_t axis = 0);
 
-/// "607Ah", "6099h:1", "2031h:2:16": index, subindex, bits. False: `error` says why.
-bool parseEntry(std::string_view text, PdoEntry &entry, std::string &error);
+/// Why a drive that is that axis has nothing to do with an object of the device; empty: it may.
+std::string foreignAxis(Object object, uint8_t axis);
+
+/// "607Ah", "6099h:1", "2031h:2:16": index, subindex, bits; the entry's object is that of the first
+/// axis. False: `error` says why.
+bool parseEntry(std::string_view text, PdoEntry &entry, std::string &error, uint8_t axis = 0);
 
 } // namespace stride::can
 

@@ -15,6 +15,7 @@ constexpr double kLongestCycle = 4e9; // µs
 DriveWish driveWish(uint32_t node, const bus::SetupParameters &given,
                     const DriveSettings &settings) {
   DriveWish wish;
+  wish.axis = static_cast<uint8_t>(given.number("axis"));
   wish.node = node <= kLastNode ? static_cast<uint8_t>(node) : uint8_t{0};
   wish.controlType = static_cast<uint8_t>(given.number("wControlType"));
   for (size_t i = 0; i < wish.send.size(); ++i) {
@@ -32,15 +33,11 @@ DriveWish driveWish(uint32_t node, const bus::SetupParameters &given,
 }
 
 /// Its file with parameters is the data sheet of a device.
-bool isDataSheet(const bus::GroupSetup &setup, uint32_t id) {
-  for (const bus::DriveSetup &drive : setup.drives) {
-    if (drive.id != id)
-      continue;
-    const std::string name = common::lowerCase(drive.parameters.text("parameters"));
-    for (const std::string_view ending : {".dcf", ".eds", ".xdd", ".xdc"})
-      if (name.ends_with(ending))
-        return true;
-  }
+bool isDataSheet(const bus::DriveSetup &drive) {
+  const std::string name = common::lowerCase(drive.parameters.text("parameters"));
+  for (const std::string_view ending : {".dcf", ".eds", ".xdd", ".xdc"})
+    if (name.ends_with(ending))
+      return true;
   return false;
 }
 
@@ -64,15 +61,41 @@ std::string lssFault(const bus::SetupParameters &node, const bus::GroupSetup &se
              return other.parameters.number(key) == node.number(key);
            });
   };
-  const auto same = std::count_if(setup.drives.begin(), setup.drives.end(), isSame) +
-                    std::count_if(setup.encoders.begin(), setup.encoders.end(), isSame) +
-                    std::count_if(setup.ios.begin(), setup.ios.end(), isSame);
+  std::ptrdiff_t same = 0; // the axes of a device have one identity
+  for (size_t i = 0; i < setup.drives.size(); ++i)
+    same += deviceOf(setup, i) == i && isSame(setup.drives[i]) ? 1 : 0;
+  same += std::count_if(setup.encoders.begin(), setup.encoders.end(), isSame) +
+          std::count_if(setup.ios.begin(), setup.ios.end(), isSame);
   return same > 1 ? "`lss` finds it by its identity, and another node has the same one" : "";
 }
 
-/// Why a drive cannot be started at all.
-std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint32_t id,
-                    const bus::GroupSetup &setup, bool hasSyncDevice) {
+/// What is of the device and not of an axis, which of its drives may say it.
+constexpr std::array kDeviceKeys = {"reset", "guard", "lss", "pdo_timeout"};
+
+/// What the axes of a device say differently.
+std::string deviceFault(const bus::GroupSetup &setup, size_t drive) {
+  const size_t first = deviceOf(setup, drive);
+  const bus::SetupParameters &given = setup.drives[drive].parameters;
+  const bus::SetupParameters &others = setup.drives[first].parameters;
+  const auto differs = [&](const char *key) {
+    return given.given(key) && given.number(key) != others.number(key);
+  };
+  std::string key;
+  for (const char *const one : kDeviceKeys)
+    if (differs(one))
+      key = one;
+  for (const char *const one : kIdentityKeys)
+    if (differs(one))
+      key = one;
+  if (key.empty())
+    return {};
+  return "`" + key + "` is of the whole device: it belongs to drive `" + setup.drives[first].name +
+         "`, which is its first one here";
+}
+
+/// Why the node of a drive cannot be what the configuration says.
+std::string nodeFault(const bus::GroupSetup &setup, size_t drive, bool hasSyncDevice) {
+  const uint32_t id = setup.drives[drive].id;
   if (id == 0 || id > kLastNode)
     return "wDriveId is its node id: 1 to 127";
   const auto own = static_cast<uint32_t>(setup.busParameters.number("node_id"));
@@ -80,16 +103,24 @@ std::string faultOf(const PlanResult &plan, const DriveSettings &settings, uint3
     return "its node id is the master's own (node_id)";
   if (hasSyncDevice && id == kSyncDevice)
     return "its node id is that of the SYNC device";
-  if (std::count_if(setup.drives.begin(), setup.drives.end(),
-                    [id](const bus::DriveSetup &drive) { return drive.id == id; }) > 1)
-    return "another drive has the same wDriveId";
+  const uint8_t axis = axisOfDrive(setup.drives[drive]);
+  if (std::count_if(setup.drives.begin(), setup.drives.end(), [&](const bus::DriveSetup &one) {
+        return one.id == id && axisOfDrive(one) == axis;
+      }) > 1)
+    return "another drive has the same wDriveId: drives of one device differ in `axis`";
+  if (deviceOf(setup, drive) != drive)
+    return deviceFault(setup, drive);
+  return lssFault(setup.drives[drive].parameters, setup);
+}
+
+/// Why a drive cannot be started at all.
+std::string faultOf(const PlanResult &plan, const DriveSettings &settings, size_t drive,
+                    const bus::GroupSetup &setup, bool hasSyncDevice) {
+  if (std::string fault = nodeFault(setup, drive, hasSyncDevice); !fault.empty())
+    return fault;
   if (!settings.errors.empty())
     return settings.errors.front();
-  for (const bus::DriveSetup &drive : setup.drives)
-    if (drive.id == id)
-      if (std::string fault = lssFault(drive.parameters, setup); !fault.empty())
-        return fault;
-  if (isDataSheet(setup, id))
+  if (isDataSheet(setup.drives[drive]))
     return "`parameters` is a file of SMC_WriteDriveParamsToFile; of a DCF, `stride can import` "
            "makes "
            "`startup`";
@@ -117,6 +148,17 @@ void checkLoad(const GroupPlan &plan, bus::GroupFindings &findings) {
 }
 
 } // namespace
+
+uint8_t axisOfDrive(const bus::DriveSetup &drive) {
+  return static_cast<uint8_t>(drive.parameters.number("axis"));
+}
+
+size_t deviceOf(const bus::GroupSetup &setup, size_t drive) {
+  const auto first =
+      std::find_if(setup.drives.begin(), setup.drives.end(),
+                   [&](const bus::DriveSetup &one) { return one.id == setup.drives[drive].id; });
+  return static_cast<size_t>(first - setup.drives.begin());
+}
 
 size_t driveNamed(const bus::GroupSetup &setup, std::string_view name) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -321,7 +363,7 @@ GroupPlan planGroup(const bus::GroupSetup &setup) {
       plans.push_back(encoder.plan);
   for (const bus::DriveSetup &drive : setup.drives) {
     const auto node = static_cast<uint8_t>(std::min<uint32_t>(drive.id, kLastNode));
-    result.settings.push_back(driveSettings(node, drive.parameters));
+    result.settings.push_back(driveSettings(node, drive.parameters, axisOfDrive(drive)));
     const DriveSettings &settings = result.settings.back();
     DriveWish wish = driveWish(drive.id, drive.parameters, settings);
     const size_t place = result.drives.size();
@@ -329,11 +371,13 @@ GroupPlan planGroup(const bus::GroupSetup &setup) {
         std::any_of(result.encoders.begin(), result.encoders.end(),
                     [place](const EncoderPlan &encoder) { return encoder.drive == place; });
     result.drives.push_back(planDrive(wish));
-    result.faults.push_back(faultOf(result.drives.back(), settings, drive.id, setup,
-                                    result.sync == SyncProducer::Device));
-    if (result.faults.back().empty())
-      plans.push_back(result.drives.back().plan);
+    result.faults.push_back(
+        faultOf(result.drives.back(), settings, place, setup, result.sync == SyncProducer::Device));
   }
+  addCobIds(setup, result);
+  for (size_t i = 0; i < result.drives.size(); ++i)
+    if (result.faults[i].empty())
+      plans.push_back(result.drives[i].plan);
   result.load = busLoad(plans, result.bitRate, result.cycle);
   return result;
 }

@@ -45,10 +45,19 @@ struct GroupPlan {
   BusLoad load;
 };
 
+/// Which axis of its device a drive is.
+uint8_t axisOfDrive(const bus::DriveSetup &drive);
+
+/// The place of the first drive of the group that is the same device; its own: it is that.
+size_t deviceOf(const bus::GroupSetup &setup, size_t drive);
+
 /// BaudRate, or the usual one. [kBit/s]
 uint32_t bitRateOf(const bus::GroupSetup &setup);
 
 GroupPlan planGroup(const bus::GroupSetup &setup);
+
+/// Gives the PDOs of further axes of devices identifiers that nobody else of the group has.
+void addCobIds(const bus::GroupSetup &setup, GroupPlan &plan);
 
 /// Appends what is wrong with a group, or not good (DriverSchema::check).
 void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings);

@@ -46,6 +46,7 @@ inline constexpr uint16_t kInterpolationPeriod = 0x60C2;
 inline constexpr uint16_t kProbeValues = 0x60BA; ///< Four objects from here.
 inline constexpr Object kTargetVelocity = {0x60FF, 0};
 inline constexpr Object kSupportedModes = {0x6502, 0};
+inline constexpr Object kAxisType = {0x67FF, 0}; ///< As 1000h, of a logical device.
 inline constexpr Object kEncoderRange = {0x6002, 0};
 // Of I/O devices: arrays from subindex 1.
 inline constexpr uint16_t kInputs = 0x6000;
@@ -139,6 +140,35 @@ constexpr Signal signalOf(Object object) {
     if (row.object == object)
       return row.signal;
   return Signal::Other;
+}
+
+// A device may be several drives, its axes: they are logical devices, whose objects lie 800h and
+// whose PDOs 64 apart. [CiA 301, object 67FFh; CiA 402-3]
+inline constexpr uint8_t kMostAxes = 8;
+inline constexpr uint16_t kProfileObjects = 0x6000; ///< Where those of the first axis begin …
+inline constexpr uint16_t kAxisObjects = 0x0800;    ///< … and how many there are of each.
+inline constexpr uint16_t kAxisPdos = 64;
+
+/// The axis that an object of the device profiles belongs to; kMostAxes: it belongs to none.
+constexpr uint8_t axisOf(Object object) {
+  if (object.index < kProfileObjects)
+    return kMostAxes;
+  const auto axis = static_cast<uint8_t>((object.index - kProfileObjects) / kAxisObjects);
+  return axis < kMostAxes ? axis : kMostAxes;
+}
+
+/// What of an axis is what `object` is of the first one.
+constexpr Object ofAxis(Object object, uint8_t axis) {
+  if (axisOf(object) == 0)
+    object.index = static_cast<uint16_t>(object.index + kAxisObjects * axis);
+  return object;
+}
+
+/// What of the first axis is what `object` is of that one; objects of others stay as they are.
+constexpr Object inProfile(Object object, uint8_t axis) {
+  if (axisOf(object) == axis)
+    object.index = static_cast<uint16_t>(object.index - kAxisObjects * axis);
+  return object;
 }
 
 /// Bytes of an object that CiA 402 fixes, and whether it has a sign; bytes 0: not known here.

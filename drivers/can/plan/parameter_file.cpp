@@ -43,7 +43,7 @@ bool fitsForm(int64_t value, const ObjectForm &form) {
 
 class FileReader {
 public:
-  explicit FileReader(std::string_view text) : text_(text) {}
+  FileReader(std::string_view text, uint8_t axis) : text_(text), axis_(axis) {}
 
   ParameterFile read() {
     if (text_.find("<DriveParameters") != std::string_view::npos)
@@ -70,10 +70,13 @@ private:
     }
     SdoWrite write;
     write.object = {static_cast<uint16_t>(parameter >> 8), static_cast<uint8_t>(parameter & 0xFF)};
-    const ObjectForm form = formOf(write.object);
+    const ObjectForm form = formOf(inProfile(write.object, axis_));
     const std::optional<int64_t> given = wholeValue(value);
-    if (const std::string_view owner = ownerOf(write.object); !owner.empty())
+    const std::string foreign = foreignAxis(write.object, axis_);
+    if (const std::string_view owner = ownerOf(write.object, axis_); !owner.empty())
       fail(line, "what is written there is the matter of " + std::string(owner));
+    else if (!foreign.empty())
+      fail(line, foreign);
     else if (!given)
       fail(line, "the value is no whole number of 32 bits");
     else if (!fitsForm(*given, form))
@@ -138,11 +141,14 @@ private:
   }
 
   std::string_view text_;
+  uint8_t axis_;
   ParameterFile file_;
 };
 
 } // namespace
 
-ParameterFile readParameterFile(std::string_view text) { return FileReader(text).read(); }
+ParameterFile readParameterFile(std::string_view text, uint8_t axis) {
+  return FileReader(text, axis).read();
+}
 
 } // namespace stride::can

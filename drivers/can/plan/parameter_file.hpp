@@ -19,7 +19,7 @@ struct ParameterFile {
 
 /// Text: after a first line `drive;ID` a line `NUMBER;VALUE;NAME;UNIT` for each parameter. XML:
 /// elements `<Parameter Number="NUMBER" …>VALUE</Parameter>`. A number is index * 256 + subindex.
-ParameterFile readParameterFile(std::string_view text);
+ParameterFile readParameterFile(std::string_view text, uint8_t axis = 0);
 
 } // namespace stride::can
 

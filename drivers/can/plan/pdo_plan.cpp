@@ -75,9 +75,10 @@ uint32_t bitsOf(std::span<const PdoEntry> entries) {
 /// The PDOs of one direction while they are filled.
 class Filler {
 public:
-  Filler(std::array<Pdo, DrivePlan::kMostPdos> &pdos, uint8_t &count, uint16_t base, uint8_t node,
-         bool transmits)
-      : pdos_(pdos), count_(count), base_(base), node_(node), transmits_(transmits) {}
+  Filler(std::array<Pdo, DrivePlan::kMostPdos> &pdos, uint8_t &count, uint16_t base,
+         const DriveWish &wish, bool transmits)
+      : pdos_(pdos), count_(count), base_(base), node_(wish.node), axis_(wish.axis),
+        transmits_(transmits) {}
 
   /// Into a PDO of that kind with room for all of them, or into a new one.
   void add(std::span<const PdoEntry> entries, uint8_t transmission) {
@@ -107,8 +108,8 @@ private:
       return nullptr;
     }
     Pdo &pdo = pdos_[count_];
-    pdo.cobId = static_cast<uint16_t>(base_ + count_ * kNextPdo + node_);
-    pdo.number = ++count_;
+    pdo.cobId = predefinedId(base_, count_, node_, axis_);
+    pdo.number = static_cast<uint16_t>(kAxisPdos * axis_ + ++count_);
     pdo.transmission = transmission;
     if (transmits_ && !pdo.synchronous())
       pdo.eventTimer = kEventTimer;
@@ -119,6 +120,7 @@ private:
   uint8_t &count_;
   uint16_t base_;
   uint8_t node_;
+  uint8_t axis_;
   bool transmits_;
   bool tooMany_ = false;
 };
@@ -347,7 +349,7 @@ void planRpdos(const DriveWish &wish, PlanResult &result) {
     takeOwnRpdos(wish, result);
     return;
   }
-  Filler filler(plan.rpdos, plan.rpdoCount, kRpdoBase, wish.node, false);
+  Filler filler(plan.rpdos, plan.rpdoCount, kRpdoBase, wish, false);
   fill(filler, {entry(Signal::Controlword), entry(Signal::Mode), setValues(plan.sent)}, wish);
   if (wish.probeInputs != 0)
     filler.add(entry(Signal::ProbeFunction), kindOf(wish));
@@ -361,7 +363,7 @@ void planTpdos(const DriveWish &wish, PlanResult &result) {
     takeOwnTpdos(wish, result);
     return;
   }
-  Filler filler(plan.tpdos, plan.tpdoCount, kTpdoBase, wish.node, true);
+  Filler filler(plan.tpdos, plan.tpdoCount, kTpdoBase, wish, true);
   std::vector<PdoEntry> values = actualValues(plan.received);
   if (wish.secondEncoder)
     values.push_back(entry(Signal::SecondPosition));
@@ -376,6 +378,7 @@ void planTpdos(const DriveWish &wish, PlanResult &result) {
 PlanResult planDrive(const DriveWish &wish) {
   PlanResult result;
   result.plan.node = wish.node;
+  result.plan.axis = wish.axis;
   if (!wantValues(wish, result))
     return result;
   planRpdos(wish, result);

@@ -41,7 +41,7 @@ struct Pdo {
   static constexpr uint8_t kLastSynchronous = 240;
   static constexpr uint8_t kByEvent = 255;
 
-  uint8_t number = 1;       ///< From 1.
+  uint16_t number = 1;      ///< From 1; those of further axes from 64 times their number on.
   uint16_t cobId = 0;       ///< 0 … Frame::kLastId.
   uint8_t transmission = 1; ///< At every SYNC; kByEvent: when something changes.
   uint16_t inhibit = 0;     ///< Shortest time between two, for events. [100 µs]
@@ -56,11 +56,13 @@ struct Pdo {
   [[nodiscard]] bool synchronous() const { return transmission <= kLastSynchronous; }
 };
 
-/// The PDOs of one drive, from its side: it receives RPDOs and transmits TPDOs.
+/// The PDOs of one drive, from its side: it receives RPDOs and transmits TPDOs. Objects of the
+/// profile are written as those of the first axis.
 struct DrivePlan {
   static constexpr size_t kMostPdos = 4;
 
   uint8_t node = 0; ///< 1 … kLastNode.
+  uint8_t axis = 0; ///< Of the device, less than kMostAxes.
   uint8_t rpdoCount = 0;
   uint8_t tpdoCount = 0;
   std::array<Pdo, kMostPdos> rpdos{};
@@ -90,7 +92,14 @@ struct DriveWish {
   /// PDOs of its own in place of those of the plan, by their numbers; empty: the plan's.
   std::vector<Pdo> rpdos = {};
   std::vector<Pdo> tpdos = {};
+  uint8_t axis = 0; ///< Of the device.
 };
+
+/// The COB-ID of a PDO that is the n-th of its drive, from 0, in the predefined connection set; 0:
+/// it has none there.
+constexpr uint16_t predefinedId(uint16_t base, size_t place, uint8_t node, uint8_t axis) {
+  return axis == 0 ? static_cast<uint16_t>(base + place * kNextPdo + node) : uint16_t{0};
+}
 
 /// What is to be said about a plan.
 enum class PlanNote : uint8_t {
@@ -120,7 +129,8 @@ struct PlanResult {
   [[nodiscard]] bool usable() const;
 };
 
-/// The default plan, or the drive's own PDOs, with the COB-IDs of the predefined connection set.
+/// The default plan, or the drive's own PDOs, with the COB-IDs of the predefined connection set;
+/// PDOs of further axes have none yet (0), since the set has none for them.
 PlanResult planDrive(const DriveWish &wish);
 
 /// The plan of an encoder: its own TPDOs, or its second one, which has the position at SYNC.

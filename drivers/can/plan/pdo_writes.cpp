@@ -19,17 +19,20 @@ constexpr PdoObjects kTransmit = {object::kTpdoCommunication, object::kTpdoMappi
 
 uint16_t indexOf(uint16_t first, size_t place) { return static_cast<uint16_t>(first + place); }
 
-uint32_t mappingValue(const PdoEntry &entry) {
-  return uint32_t{entry.object.index} << 16U | uint32_t{entry.object.sub} << 8U | entry.bits;
+uint32_t mappingValue(const PdoEntry &entry, uint8_t axis) {
+  return uint32_t{ofAxis(entry.object, axis).index} << 16U | uint32_t{entry.object.sub} << 8U |
+         entry.bits;
 }
 
-void configure(std::vector<SdoWrite> &writes, const PdoObjects &objects, const Pdo &pdo) {
+void configure(std::vector<SdoWrite> &writes, const PdoObjects &objects, const Pdo &pdo,
+               uint8_t axis) {
   const uint16_t communication = indexOf(objects.communication, pdo.number - 1U);
   const uint16_t mapping = indexOf(objects.mapping, pdo.number - 1U);
   writes.push_back({{communication, 1}, 4, pdo.cobId | kPdoInvalid, false, objects.transmits});
   writes.push_back({{mapping, 0}, 1, 0});
   for (uint8_t i = 0; i < pdo.count; ++i)
-    writes.push_back({{mapping, static_cast<uint8_t>(i + 1)}, 4, mappingValue(pdo.entries[i])});
+    writes.push_back(
+        {{mapping, static_cast<uint8_t>(i + 1)}, 4, mappingValue(pdo.entries[i], axis)});
   writes.push_back({{mapping, 0}, 1, pdo.count});
   writes.push_back({{communication, 2}, 1, pdo.transmission});
   if (objects.transmits && pdo.inhibit != 0)
@@ -40,16 +43,17 @@ void configure(std::vector<SdoWrite> &writes, const PdoObjects &objects, const P
 }
 
 void configureAll(std::vector<SdoWrite> &writes, const PdoObjects &objects,
-                  std::span<const Pdo> pdos, uint8_t node) {
+                  std::span<const Pdo> pdos, const DrivePlan &plan) {
+  const size_t first = size_t{kAxisPdos} * plan.axis;
   for (size_t place = 0; place < DrivePlan::kMostPdos; ++place) {
     const auto pdo = std::find_if(pdos.begin(), pdos.end(),
-                                  [&](const Pdo &one) { return one.number == place + 1; });
+                                  [&](const Pdo &one) { return one.number == first + place + 1; });
     if (pdo != pdos.end()) {
-      configure(writes, objects, *pdo);
+      configure(writes, objects, *pdo, plan.axis);
       continue;
     }
-    const auto cobId = static_cast<uint32_t>(objects.cobIdBase + place * 0x100 + node);
-    writes.push_back({{indexOf(objects.communication, place), 1},
+    const uint32_t cobId = predefinedId(objects.cobIdBase, place, plan.node, plan.axis);
+    writes.push_back({{indexOf(objects.communication, first + place), 1},
                       4,
                       cobId | kPdoInvalid,
                       true,
@@ -66,8 +70,8 @@ void append(std::vector<uint8_t> &bytes, uint32_t value, unsigned size) {
 
 std::vector<SdoWrite> pdoWrites(const DrivePlan &plan) {
   std::vector<SdoWrite> writes;
-  configureAll(writes, kReceive, plan.receivedByDrive(), plan.node);
-  configureAll(writes, kTransmit, plan.sentByDrive(), plan.node);
+  configureAll(writes, kReceive, plan.receivedByDrive(), plan);
+  configureAll(writes, kTransmit, plan.sentByDrive(), plan);
   return writes;
 }
 

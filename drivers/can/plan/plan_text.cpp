@@ -21,10 +21,10 @@ std::string wide(std::string text, size_t width) {
   return text + "  ";
 }
 
-std::string contentOf(const Pdo &pdo) {
+std::string contentOf(const Pdo &pdo, uint8_t axis) {
   std::string text;
   for (const PdoEntry &entry : pdo.mapped()) {
-    text += (text.empty() ? "" : ", ") + hexadecimal(entry.object.index, 4);
+    text += (text.empty() ? "" : ", ") + hexadecimal(ofAxis(entry.object, axis).index, 4);
     if (entry.object.sub != 0)
       text += ":" + std::to_string(entry.object.sub);
     if (const std::string_view name = nameOf(signalOf(entry.object)); !name.empty())
@@ -50,7 +50,8 @@ void addRows(const Widths &widths, const std::string &drive, const DrivePlan &pl
     text += row(widths, drive, std::to_string(plan.node), kind + std::to_string(pdo.number),
                 hexadecimal(pdo.cobId, 3), pdo.synchronous() ? "SYNC" : "event",
                 std::to_string(pdo.length()),
-                pdo.synchronous() ? std::to_string(worstBits(pdo.length())) : "-", contentOf(pdo));
+                pdo.synchronous() ? std::to_string(worstBits(pdo.length())) : "-",
+                contentOf(pdo, plan.axis));
   };
   for (const Pdo &pdo : plan.receivedByDrive())
     add(pdo, "RPDO");

@@ -23,10 +23,9 @@ constexpr uint8_t kResetCommunication = 0x82;
 } // namespace
 
 CanopenNode::CanopenNode(const NodeSetup &setup, const DeviceRows &device)
-    : setup_(setup), id_(setup.id), receivePdos_(device.receive.size()),
-      transmitPdos_(device.transmit.size()), dictionary_(allRows(setup_, device)),
-      emergency_(dictionary_), control_(dictionary_), sdo_(dictionary_, *this, setup.sdo),
-      process_(dictionary_, *this, emergency_, receivePdos_, transmitPdos_, setup.remotely),
+    : setup_(setup), id_(setup.id), dictionary_(allRows(setup_, device)), emergency_(dictionary_),
+      control_(dictionary_), sdo_(dictionary_, *this, setup.sdo),
+      process_(dictionary_, *this, emergency_, device.receive, device.transmit, setup.remotely),
       lss_({setup.vendor, setup.product, setup.revision, setup.serial}, setup.id),
       syncId_(dictionary_.at(0x1005)), syncPeriod_(dictionary_.at(0x1006)),
       syncOverflow_(dictionary_.at(0x1019)) {}

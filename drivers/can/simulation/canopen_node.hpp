@@ -112,8 +112,6 @@ private:
 
   NodeSetup setup_;
   uint8_t id_;
-  size_t receivePdos_;
-  size_t transmitPdos_;
   Dictionary dictionary_;
   Emergency emergency_;
   ErrorControl control_;

@@ -27,28 +27,29 @@ uint8_t registerBits(uint16_t code) {
 
 } // namespace
 
-SimulatedDrive402::SimulatedDrive402(const Drive402Setup &setup)
-    : CanopenNode(setup.node, driveRows(setup)), parameters_(setup.drive),
-      homingParameters_(setup.drive), ratedTorque_(setup.ratedTorque),
-      velocityScale_(setup.velocityScale), secondEncoder_(setup.secondEncoder), o_(objects()),
+DriveAxis::DriveAxis(const Drive402Setup &setup, SimulatedDrive402 &node)
+    : node_(node), shift_(static_cast<uint16_t>(kAxisObjects * setup.axis)),
+      parameters_(setup.drive), homingParameters_(setup.drive), ratedTorque_(setup.ratedTorque),
+      velocityScale_(setup.velocityScale), secondEncoder_(setup.secondEncoder),
+      o_(AxisObjects{node.objects(), shift_}),
       mechanics_(setup.drive.mechanics, setup.drive.startPosition),
       cycle_(setup.drive.mechanics.cycle) {}
 
-bool SimulatedDrive402::powered() const { return regulates() || power_ == PowerState::SwitchedOn; }
+bool DriveAxis::powered() const { return regulates() || power_ == PowerState::SwitchedOn; }
 
 /// Power stage on and brake open.
-bool SimulatedDrive402::regulates() const {
+bool DriveAxis::regulates() const {
   return power_ == PowerState::OperationEnabled || power_ == PowerState::QuickStopActive ||
          power_ == PowerState::FaultReaction;
 }
 
-bool SimulatedDrive402::positions() const {
+bool DriveAxis::positions() const {
   return mode_ != kProfileVelocity && mode_ != kProfileTorque && mode_ != kSyncVelocity &&
          mode_ != kSyncTorque;
 }
 
 /// Positions are those that the mechanics have; references are forgotten.
-void SimulatedDrive402::onReset() noexcept {
+void DriveAxis::reset() noexcept {
   power_ = PowerState::SwitchOnDisabled;
   switching_ = afterStop_ = PowerState::NotReady;
   stopping_ = false;
@@ -62,13 +63,13 @@ void SimulatedDrive402::onReset() noexcept {
   demanded_ = target_ = from_ = mechanics_.position();
   velocityDemanded_ = torqueDemanded_ = demandRest_ = lagSeconds_ = 0;
   following_ = false;
-  cycleNs_ = nowNs();
+  cycleNs_ = node_.nowNs();
   freely_ = true;
   updateSwitches();
   updateObjects();
 }
 
-void SimulatedDrive402::change(PowerState state) noexcept {
+void DriveAxis::change(PowerState state) noexcept {
   const bool before = regulates();
   power_ = state;
   switching_ = afterStop_ = PowerState::NotReady;
@@ -82,7 +83,7 @@ void SimulatedDrive402::change(PowerState state) noexcept {
 }
 
 /// The drive comes to rest by itself, and is in that state then; NotReady: it holds there.
-void SimulatedDrive402::brakeTo(PowerState target, const Entry &ramp) noexcept {
+void DriveAxis::brakeTo(PowerState target, const Entry &ramp) noexcept {
   if (!positions())
     velocityDemanded_ = mechanics_.velocity();
   run_.clear();
@@ -92,7 +93,7 @@ void SimulatedDrive402::brakeTo(PowerState target, const Entry &ramp) noexcept {
   deceleration_ = rampOf(ramp);
 }
 
-void SimulatedDrive402::leaveOperation(PowerState target) noexcept {
+void DriveAxis::leaveOperation(PowerState target) noexcept {
   constexpr int64_t kStays = 5; ///< 605Ah from here on: the drive stays in quick stop active.
   if (target == PowerState::QuickStopActive) {
     const int64_t option = o_.quickStopOption.asSigned();
@@ -114,12 +115,13 @@ void SimulatedDrive402::leaveOperation(PowerState target) noexcept {
 }
 
 /// One transition for a controlword.
-void SimulatedDrive402::control(uint16_t before, uint16_t word) noexcept {
+void DriveAxis::control(uint16_t before, uint16_t word) noexcept {
   if (power_ == PowerState::Fault) {
     if ((word & ~before & kFaultReset) == 0 || persistent_)
       return;
-    emergency().clear(fault_);
+    const uint16_t code = fault_;
     fault_ = 0;
+    node_.settle(code);
     if (sim_ != nullptr)
       sim_->wDriveError = 0;
     change(PowerState::SwitchOnDisabled);
@@ -149,12 +151,12 @@ void SimulatedDrive402::control(uint16_t before, uint16_t word) noexcept {
   }
   switching_ = next;
   const auto cycles = static_cast<int64_t>(std::max(parameters_.switchCycles, 1U) - 1);
-  switchedNs_ = nowNs() + cycles * periodNs();
+  switchedNs_ = node_.nowNs() + cycles * periodNs();
   finishSwitching();
 }
 
-void SimulatedDrive402::finishSwitching() noexcept {
-  if (switching_ == PowerState::NotReady || nowNs() < switchedNs_)
+void DriveAxis::finishSwitching() noexcept {
+  if (switching_ == PowerState::NotReady || node_.nowNs() < switchedNs_)
     return;
   const bool on = switching_ == PowerState::SwitchedOn;
   if (sim_ != nullptr && (on ? sim_->bRegulatorStuck : sim_->bBrakeStuck) != 0)
@@ -162,17 +164,17 @@ void SimulatedDrive402::finishSwitching() noexcept {
   change(switching_);
 }
 
-void SimulatedDrive402::finishStop() noexcept {
+void DriveAxis::finishStop() noexcept {
   if (!stopping_ || velocityDemanded_ != 0 || afterStop_ == PowerState::NotReady)
     return;
   change(afterStop_);
 }
 
-void SimulatedDrive402::raiseError(uint16_t code) noexcept {
+void DriveAxis::raiseError(uint16_t code) noexcept {
   if (power_ == PowerState::Fault || power_ == PowerState::FaultReaction || code == 0)
     return;
   fault_ = code;
-  emergency().raise(code, registerBits(code));
+  node_.raise(code, registerBits(code));
   switching_ = PowerState::NotReady;
   if (!regulates() || o_.faultOption.value == 0) {
     change(PowerState::Fault);
@@ -184,7 +186,7 @@ void SimulatedDrive402::raiseError(uint16_t code) noexcept {
 }
 
 /// What 6007h says. `always`: also without power.
-void SimulatedDrive402::abortConnection(bool always) noexcept {
+void DriveAxis::abortConnection(bool always) noexcept {
   switch (o_.abortOption.value) {
   case 1:
     if (always || powered())
@@ -204,22 +206,24 @@ void SimulatedDrive402::abortConnection(bool always) noexcept {
   updateObjects();
 }
 
-void SimulatedDrive402::onConnectionLost() noexcept { abortConnection(true); }
+void DriveAxis::connectionLost() noexcept { abortConnection(true); }
 
-void SimulatedDrive402::onState(NmtState state) noexcept {
+void DriveAxis::entered(NmtState state) noexcept {
   if (state == NmtState::Stopped || state == NmtState::Initialising)
     abortConnection(false);
   updateObjects();
 }
 
-Abort SimulatedDrive402::onWrite(const Entry &entry, uint64_t value) noexcept {
+/// Whoever configures the drive is told that somebody else has it.
+bool DriveAxis::isElsewhere() const {
+  return sim_ != nullptr && sim_->bFailStartUp != 0 && node_.state() == NmtState::PreOperational;
+}
+
+Abort DriveAxis::check(const Entry &entry, uint64_t value) const noexcept {
   const auto number = static_cast<int64_t>(value);
-  // Whoever configures the drive is told that somebody else has it.
-  if (sim_ != nullptr && sim_->bFailStartUp != 0 && state() == NmtState::PreOperational)
-    return Abort::LocalControl;
-  switch (entry.row.index) {
+  switch (entry.row.index - shift_) {
   case 0x6060: {
-    const uint64_t modes = objects().value(0x6502);
+    const uint64_t modes = o_.supportedModes.value;
     const bool known = number > 0 && number <= 32 && (modes >> (number - 1) & 1U) != 0;
     return known || number == 0 ? Abort::None : Abort::Value;
   }
@@ -233,7 +237,7 @@ Abort SimulatedDrive402::onWrite(const Entry &entry, uint64_t value) noexcept {
   }
 }
 
-void SimulatedDrive402::onWritten(Entry &entry) noexcept {
+void DriveAxis::written(Entry &entry) noexcept {
   if (&entry == &o_.controlword) {
     const uint16_t before = control_;
     control_ = static_cast<uint16_t>(entry.value);
@@ -246,19 +250,19 @@ void SimulatedDrive402::onWritten(Entry &entry) noexcept {
   }
 }
 
-void SimulatedDrive402::onSync() noexcept {
+void DriveAxis::sync() noexcept {
   disturb();
-  move(nowNs());
+  move(node_.nowNs());
   freely_ = false;
 }
 
-void SimulatedDrive402::onSynchronized() noexcept {
+void DriveAxis::synchronized() noexcept {
   latch();
   updateObjects();
 }
 
 /// No SYNC has come: the controllers go on by themselves.
-void SimulatedDrive402::onTime() noexcept {
+void DriveAxis::time() noexcept {
   disturb();
   move(cycleNs_ + periodNs());
   freely_ = true;
@@ -266,12 +270,12 @@ void SimulatedDrive402::onTime() noexcept {
   updateObjects();
 }
 
-int64_t SimulatedDrive402::nextDeviceNs() const noexcept {
+int64_t DriveAxis::nextNs() const noexcept {
   const int64_t period = periodNs();
   return cycleNs_ + (freely_ ? period : period + period / 2);
 }
 
-void SimulatedDrive402::place(int64_t position) noexcept {
+void DriveAxis::place(int64_t position) noexcept {
   if (regulates())
     return;
   mechanics_.place(position);
@@ -279,8 +283,96 @@ void SimulatedDrive402::place(int64_t position) noexcept {
   updateObjects();
 }
 
-int32_t SimulatedDrive402::position() const {
-  return static_cast<int32_t>(counter(mechanics_.position()));
+int32_t DriveAxis::position() const { return static_cast<int32_t>(counter(mechanics_.position())); }
+
+SimulatedDrive402::SimulatedDrive402(const Drive402Setup &setup)
+    : CanopenNode(setup.node, driveRows(setup)) {
+  axes_.reserve(1 + setup.further.size());
+  axes_.emplace_back(setup, *this);
+  for (const Drive402Setup &other : setup.further)
+    axes_.emplace_back(other, *this);
+}
+
+void SimulatedDrive402::raise(uint16_t code, uint8_t registerBits) noexcept {
+  emergency().raise(code, registerBits);
+}
+
+/// Unless another axis has the same error.
+void SimulatedDrive402::settle(uint16_t code) noexcept {
+  if (std::none_of(axes_.begin(), axes_.end(),
+                   [code](const DriveAxis &axis) { return axis.fault() == code; }))
+    emergency().clear(code);
+}
+
+void SimulatedDrive402::onReset() noexcept {
+  for (DriveAxis &axis : axes_)
+    axis.reset();
+}
+
+void SimulatedDrive402::onState(NmtState state) noexcept {
+  for (DriveAxis &axis : axes_)
+    axis.entered(state);
+}
+
+Abort SimulatedDrive402::onWrite(const Entry &entry, uint64_t value) noexcept {
+  const bool profile = entry.row.index >= kProfileObjects;
+  const int owner = profile ? (entry.row.index - kProfileObjects) / kAxisObjects : -1;
+  for (const DriveAxis &axis : axes_) {
+    const bool own = axis.number() == owner;
+    if ((own || !profile) && axis.isElsewhere())
+      return Abort::LocalControl;
+    if (own)
+      return axis.check(entry, value);
+  }
+  return Abort::None;
+}
+
+void SimulatedDrive402::onWritten(Entry &entry) noexcept {
+  for (DriveAxis &axis : axes_)
+    axis.written(entry);
+}
+
+/// What programs do to one of the axes they do to the connector of all.
+void SimulatedDrive402::disturb() noexcept {
+  const auto any = [this](bool (DriveAxis::*wants)() const) {
+    return std::any_of(axes_.begin(), axes_.end(),
+                       [wants](const DriveAxis &axis) { return (axis.*wants)(); });
+  };
+  if (std::none_of(axes_.begin(), axes_.end(),
+                   [](const DriveAxis &axis) { return axis.isWatched(); }))
+    return;
+  setSilent(any(&DriveAxis::isUnplugged));
+  setDeaf(any(&DriveAxis::isDeaf));
+}
+
+void SimulatedDrive402::onSync() noexcept {
+  disturb();
+  for (DriveAxis &axis : axes_)
+    axis.sync();
+}
+
+void SimulatedDrive402::onSynchronized() noexcept {
+  for (DriveAxis &axis : axes_)
+    axis.synchronized();
+}
+
+void SimulatedDrive402::onConnectionLost() noexcept {
+  for (DriveAxis &axis : axes_)
+    axis.connectionLost();
+}
+
+void SimulatedDrive402::onTime() noexcept {
+  disturb();
+  for (DriveAxis &axis : axes_)
+    if (nowNs() >= axis.nextNs())
+      axis.time();
+}
+
+int64_t SimulatedDrive402::nextDeviceNs() const noexcept {
+  int64_t next = kNever;
+  for (const DriveAxis &axis : axes_)
+    next = std::min(next, axis.nextNs());
+  return next;
 }
 
 } // namespace stride::can::simulation

@@ -22,21 +22,27 @@ namespace stride::can::simulation {
 using DriveSim = ::st::DummyDrive::DUMMY_DRIVE_SIM;
 
 struct Drive402Setup {
-  NodeSetup node{};
+  NodeSetup node{}; ///< Of the first axis.
   dummy::DriveParameters drive{};
   double ratedTorque = 1;   ///< 6076h. [Nm]
   double velocityScale = 1; ///< Increments per second that a unit of velocity of the drive is.
   double secondEncoder = 1; ///< 60E4h:1: its increments for one of the drive's.
   /// Objects that it has besides: those of the profile go before them.
   std::vector<ObjectRow> more{};
+  uint8_t axis = 0; ///< Of the device.
+  /// More axes of the same device. [CiA 301, logical devices]
+  std::vector<Drive402Setup> further{};
 };
+
+class SimulatedDrive402;
 
 /// Its controllers run with SYNC, or by themselves every 60C2h when none comes: a cycle of them is
 /// over when SYNC comes about that time after the last one. What is valid since a SYNC has been
 /// reached at the next one, with ideal mechanics to the increment.
-class SimulatedDrive402 final : public CanopenNode {
+class DriveAxis {
 public:
-  explicit SimulatedDrive402(const Drive402Setup &setup);
+  /// The rows of `setup` must be in the dictionary of `node`, whose axis it is.
+  DriveAxis(const Drive402Setup &setup, SimulatedDrive402 &node);
 
   /// Where the structure that it shares with programs is now; null: there is none.
   void bind(DriveSim *sim) { sim_ = sim; }
@@ -54,17 +60,30 @@ public:
   [[nodiscard]] int32_t position() const;
   [[nodiscard]] int8_t mode() const { return mode_; }
 
-private:
-  void onReset() noexcept override;
-  void onState(NmtState state) noexcept override;
-  Abort onWrite(const Entry &entry, uint64_t value) noexcept override;
-  void onWritten(Entry &entry) noexcept override;
-  void onSync() noexcept override;
-  void onSynchronized() noexcept override;
-  void onConnectionLost() noexcept override;
-  void onTime() noexcept override;
-  [[nodiscard]] int64_t nextDeviceNs() const noexcept override;
+  [[nodiscard]] uint8_t number() const { return static_cast<uint8_t>(shift_ / kAxisObjects); }
+  /// The code of its error; 0: it has none.
+  [[nodiscard]] uint16_t fault() const { return fault_; }
 
+  // What a program does to it (DriveSim).
+  [[nodiscard]] bool isWatched() const { return sim_ != nullptr; }
+  [[nodiscard]] bool isUnplugged() const {
+    return sim_ != nullptr && sim_->bLoseCommunication != 0;
+  }
+  [[nodiscard]] bool isDeaf() const { return sim_ != nullptr && sim_->bHoldParameters != 0; }
+  [[nodiscard]] bool isElsewhere() const;
+
+  // Hooks of its node, as CanopenNode has them.
+  void reset() noexcept;
+  void entered(NmtState state) noexcept;
+  [[nodiscard]] Abort check(const Entry &entry, uint64_t value) const noexcept;
+  void written(Entry &entry) noexcept;
+  void sync() noexcept;
+  void synchronized() noexcept;
+  void connectionLost() noexcept;
+  void time() noexcept;
+  [[nodiscard]] int64_t nextNs() const noexcept;
+
+private:
   // drive402.cpp: the power state machine.
   void control(uint16_t before, uint16_t word) noexcept;
   void change(PowerState state) noexcept;
@@ -112,6 +131,8 @@ private:
 
   enum class HomingState : uint8_t { Idle, Running, Found, Attained, Failed };
 
+  SimulatedDrive402 &node_;
+  uint16_t shift_; ///< From the objects of the first axis to its own.
   dummy::DriveParameters parameters_;
   dummy::DriveParameters homingParameters_;
   double ratedTorque_;
@@ -161,6 +182,45 @@ private:
   bool homeSwitch_ = false;
   bool index_ = false;
   double indexMark_ = 0;
+};
+
+/// A node that is one drive or several.
+class SimulatedDrive402 final : public CanopenNode {
+public:
+  explicit SimulatedDrive402(const Drive402Setup &setup);
+
+  /// In the order of the setup.
+  [[nodiscard]] DriveAxis &axis(size_t place) { return axes_[place]; }
+  [[nodiscard]] const DriveAxis &axis(size_t place) const { return axes_[place]; }
+
+  // Of the first axis.
+  void bind(DriveSim *sim) { axes_[0].bind(sim); }
+  void raiseError(uint16_t code) noexcept { axes_[0].raiseError(code); }
+  void probe(size_t input) noexcept { axes_[0].probe(input); }
+  void place(int64_t position) noexcept { axes_[0].place(position); }
+  [[nodiscard]] PowerState power() const { return axes_[0].power(); }
+  [[nodiscard]] const dummy::Mechanics &mechanics() const { return axes_[0].mechanics(); }
+  [[nodiscard]] int32_t position() const { return axes_[0].position(); }
+  [[nodiscard]] int8_t mode() const { return axes_[0].mode(); }
+
+  // Errors of an axis.
+  void raise(uint16_t code, uint8_t registerBits) noexcept;
+  void settle(uint16_t code) noexcept;
+
+private:
+  void onReset() noexcept override;
+  void onState(NmtState state) noexcept override;
+  Abort onWrite(const Entry &entry, uint64_t value) noexcept override;
+  void onWritten(Entry &entry) noexcept override;
+  void onSync() noexcept override;
+  void onSynchronized() noexcept override;
+  void onConnectionLost() noexcept override;
+  void onTime() noexcept override;
+  [[nodiscard]] int64_t nextDeviceNs() const noexcept override;
+
+  void disturb() noexcept;
+
+  std::vector<DriveAxis> axes_;
 };
 
 } // namespace stride::can::simulation

@@ -21,7 +21,7 @@ constexpr int64_t kLongestPeriod = 10'000'000'000; // ns
 } // namespace
 
 /// 60C2h.
-int64_t SimulatedDrive402::periodNs() const noexcept {
+int64_t DriveAxis::periodNs() const noexcept {
   int64_t period = static_cast<int64_t>(o_.interpolationTime.value) * 1'000'000'000;
   for (int64_t i = o_.interpolationExponent.asSigned(); i < 0; ++i)
     period /= 10;
@@ -29,20 +29,20 @@ int64_t SimulatedDrive402::periodNs() const noexcept {
 }
 
 /// [inc/s²]
-double SimulatedDrive402::rampOf(const Entry &entry) const {
+double DriveAxis::rampOf(const Entry &entry) const {
   return static_cast<double>(entry.value) * velocityScale_;
 }
 
-uint32_t SimulatedDrive402::counter(int64_t increments) const {
+uint32_t DriveAxis::counter(int64_t increments) const {
   return static_cast<uint32_t>(increments + origin_);
 }
 
-double SimulatedDrive402::exactPosition() const {
+double DriveAxis::exactPosition() const {
   return static_cast<double>(mechanics_.position()) + mechanics_.fraction();
 }
 
 /// The set position minus the actual one. [inc]
-double SimulatedDrive402::lag() const {
+double DriveAxis::lag() const {
   if (!regulates() || !positions())
     return 0;
   return static_cast<double>(demanded_ - mechanics_.position()) - mechanics_.fraction();
@@ -50,7 +50,7 @@ double SimulatedDrive402::lag() const {
 
 /// The mechanics go on to `timeNs`. About a period is a whole one: the controllers are in step with
 /// SYNC, however it trembles.
-void SimulatedDrive402::move(int64_t timeNs) noexcept {
+void DriveAxis::move(int64_t timeNs) noexcept {
   const int64_t elapsed = timeNs - cycleNs_;
   if (elapsed <= 0)
     return;
@@ -76,7 +76,7 @@ void SimulatedDrive402::move(int64_t timeNs) noexcept {
   finishStop();
 }
 
-void SimulatedDrive402::regulate(double seconds) noexcept {
+void DriveAxis::regulate(double seconds) noexcept {
   const bool braked = (o_.outputs.value & o_.outputMask.value & 1U) != 0;
   const double load = sim_ != nullptr ? sim_->fLoadTorque : 0.0;
   if (!regulates() || braked) {
@@ -93,7 +93,7 @@ void SimulatedDrive402::regulate(double seconds) noexcept {
   }
 }
 
-dummy::Demand SimulatedDrive402::demandFor(double seconds) noexcept {
+dummy::Demand DriveAxis::demandFor(double seconds) noexcept {
   if (stopping_)
     return stop(seconds);
   switch (mode_) {
@@ -118,7 +118,7 @@ dummy::Demand SimulatedDrive402::demandFor(double seconds) noexcept {
   }
 }
 
-dummy::Demand SimulatedDrive402::hold() const {
+dummy::Demand DriveAxis::hold() const {
   dummy::Demand demand;
   demand.mode = dummy::kPositionMode;
   demand.from = demand.to = demanded_;
@@ -126,7 +126,7 @@ dummy::Demand SimulatedDrive402::hold() const {
 }
 
 /// On the line from where the set position was to where it shall be after a period.
-dummy::Demand SimulatedDrive402::followPosition(double seconds) noexcept {
+dummy::Demand DriveAxis::followPosition(double seconds) noexcept {
   dummy::Demand demand;
   demand.mode = dummy::kPositionMode;
   demand.from = demanded_;
@@ -141,7 +141,7 @@ dummy::Demand SimulatedDrive402::followPosition(double seconds) noexcept {
   return demand;
 }
 
-dummy::Demand SimulatedDrive402::followVelocity(double seconds) noexcept {
+dummy::Demand DriveAxis::followVelocity(double seconds) noexcept {
   dummy::Demand demand;
   demand.mode = dummy::kVelocityMode;
   demand.velocityFrom = velocityDemanded_;
@@ -158,7 +158,7 @@ dummy::Demand SimulatedDrive402::followVelocity(double seconds) noexcept {
 }
 
 /// With the ramp of the stop, until it stands; there it stays.
-dummy::Demand SimulatedDrive402::stop(double seconds) noexcept {
+dummy::Demand DriveAxis::stop(double seconds) noexcept {
   const double ramp = stopping_ ? deceleration_ : rampOf(o_.deceleration);
   dummy::Demand demand;
   demand.from = demanded_;
@@ -180,7 +180,7 @@ dummy::Demand SimulatedDrive402::stop(double seconds) noexcept {
 }
 
 /// [Nm]
-double SimulatedDrive402::torqueFor(double seconds) noexcept {
+double DriveAxis::torqueFor(double seconds) noexcept {
   const double slope = static_cast<double>(o_.torqueSlope.value) / kPerMille * ratedTorque_;
   if (mode_ == kSyncTorque || slope == 0)
     return torque_;
@@ -188,7 +188,7 @@ double SimulatedDrive402::torqueFor(double seconds) noexcept {
 }
 
 /// 607Ah, or the set position of interpolated mode, as the mechanics have it.
-int64_t SimulatedDrive402::targetPosition() noexcept {
+int64_t DriveAxis::targetPosition() noexcept {
   int64_t wanted = mode_ == kInterpolatedPosition
                        ? o_.interpolationData.asSigned()
                        : o_.targetPosition.asSigned() + o_.positionOffset.asSigned();
@@ -203,7 +203,7 @@ int64_t SimulatedDrive402::targetPosition() noexcept {
 }
 
 /// 6060h is taken over: everything goes on from where it is.
-void SimulatedDrive402::changeMode() noexcept {
+void DriveAxis::changeMode() noexcept {
   const auto wanted = static_cast<int8_t>(o_.mode.asSigned());
   if (wanted == mode_ || wanted == 0)
     return;
@@ -219,7 +219,7 @@ void SimulatedDrive402::changeMode() noexcept {
 }
 
 /// The set values for the cycle that begins.
-void SimulatedDrive402::latch() noexcept {
+void DriveAxis::latch() noexcept {
   changeMode();
   from_ = target_ = demanded_;
   passedNs_ = 0;
@@ -253,7 +253,7 @@ void SimulatedDrive402::latch() noexcept {
   }
 }
 
-bool SimulatedDrive402::onReferenceSwitch() const {
+bool DriveAxis::onReferenceSwitch() const {
   switch (o_.homingMethod.asSigned()) {
   case 17:
     return limitNegative_;
@@ -267,7 +267,7 @@ bool SimulatedDrive402::onReferenceSwitch() const {
   }
 }
 
-void SimulatedDrive402::startHoming() noexcept {
+void DriveAxis::startHoming() noexcept {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   const int64_t method = o_.homingMethod.asSigned();
   if (method == 0 || method == 35 || method == 37) { // here
@@ -289,7 +289,7 @@ void SimulatedDrive402::startHoming() noexcept {
   homing_ = HomingState::Running;
 }
 
-dummy::Demand SimulatedDrive402::home() noexcept {
+dummy::Demand DriveAxis::home() noexcept {
   if (homing_ == HomingState::Attained)
     return hold();
   if (sim_ != nullptr && sim_->bFailHoming != 0 && homing_ == HomingState::Running) {
@@ -305,7 +305,7 @@ dummy::Demand SimulatedDrive402::home() noexcept {
 }
 
 /// Whether the reference was between the two positions: there the position counter is 607Ch.
-void SimulatedDrive402::lookForHome(double before, double now) noexcept {
+void DriveAxis::lookForHome(double before, double now) noexcept {
   if (homing_ != HomingState::Running || stopping_)
     return;
   const int64_t method = o_.homingMethod.asSigned();

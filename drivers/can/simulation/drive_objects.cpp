@@ -198,29 +198,77 @@ uint32_t supportedModes(bool torque) {
   return modes;
 }
 
-DeviceRows driveRows(const Drive402Setup &setup) {
-  DeviceRows device;
-  device.deviceType = kServoDrive;
+namespace {
+
+/// A mapped object of an axis.
+uint32_t mapped(uint32_t entry, uint16_t shift) { return entry + (uint32_t{shift} << 16U); }
+
+/// The PDOs that the profile gives to drives; all but the first of the first axis are off.
+void addPdos(DeviceRows &device, uint8_t axis) {
+  constexpr uint32_t kOff = 0x80000000;
+  constexpr uint32_t kTold = 0x40000000; ///< Nobody may ask for it.
+  struct Row {
+    uint32_t word;
+    uint32_t value;
+  };
+  constexpr std::array<Row, 4> kReceive = {{{0x60400010, 0},
+                                            {0x60400010, 0x60600008},
+                                            {0x60400010, 0x607A0020},
+                                            {0x60400010, 0x60FF0020}}};
+  constexpr std::array<Row, 4> kTransmit = {{{0x60410010, 0},
+                                             {0x60410010, 0x60610008},
+                                             {0x60410010, 0x60640020},
+                                             {0x60410010, 0x606C0020}}};
+  const auto shift = static_cast<uint16_t>(kAxisObjects * axis);
+  const auto add = [&](std::vector<PdoRow> &rows, const Row &row, size_t place, uint32_t base) {
+    PdoRow &pdo = rows.emplace_back();
+    pdo.number = static_cast<uint16_t>(kAxisPdos * axis + place + 1);
+    if (axis == 0) // the predefined connection set has no identifiers for others
+      pdo.cobId = base + static_cast<uint32_t>(place * 0x100) + (place > 0 ? kOff : 0);
+    else
+      pdo.cobId = kOff | (base & kTold);
+    pdo.map[0] = mapped(row.word, shift);
+    pdo.map[1] = row.value == 0 ? 0 : mapped(row.value, shift);
+  };
+  for (size_t i = 0; i < kReceive.size(); ++i) {
+    add(device.receive, kReceive[i], i, 0x200);
+    add(device.transmit, kTransmit[i], i, kTold | 0x180);
+  }
+}
+
+void addAxis(DeviceRows &device, const Drive402Setup &setup, bool several) {
+  std::vector<ObjectRow> rows;
   const bool torque = setup.drive.mechanics.model == dummy::Model::SecondOrder;
+  addPower(rows, supportedModes(torque));
+  addPosition(rows);
+  addVelocityAndTorque(rows, setup);
+  addSignals(rows);
+  addHoming(rows, setup);
+  if (several)
+    rows.push_back({.index = 0x67FF, .access = Access::Const, .value = kServoDrive});
+  for (ObjectRow &row : rows)
+    row.index = static_cast<uint16_t>(row.index + kAxisObjects * setup.axis);
+  device.objects.insert(device.objects.end(), rows.begin(), rows.end());
+  addPdos(device, setup.axis);
+}
+
+} // namespace
+
+DeviceRows driveRows(const Drive402Setup &setup) {
+  constexpr uint32_t kSeveral = 0xFFFF0000; // each says in 67FFh what it is
+  DeviceRows device;
+  const bool several = setup.axis != 0 || !setup.further.empty();
+  device.deviceType = several ? kSeveral | (kServoDrive & 0xFFFFU) : kServoDrive;
   device.objects = setup.more; // the last one of several for the same object counts
-  addPower(device.objects, supportedModes(torque));
-  addPosition(device.objects);
-  addVelocityAndTorque(device.objects, setup);
-  addSignals(device.objects);
-  addHoming(device.objects, setup);
-  // The PDOs that the profile gives to drives; all but the first are off.
-  device.receive = {{.cobId = 0x200, .map = {0x60400010}},
-                    {.cobId = 0x80000300, .map = {0x60400010, 0x60600008}},
-                    {.cobId = 0x80000400, .map = {0x60400010, 0x607A0020}},
-                    {.cobId = 0x80000500, .map = {0x60400010, 0x60FF0020}}};
-  device.transmit = {{.cobId = 0x40000180, .map = {0x60410010}},
-                     {.cobId = 0xC0000280, .map = {0x60410010, 0x60610008}},
-                     {.cobId = 0xC0000380, .map = {0x60410010, 0x60640020}},
-                     {.cobId = 0xC0000480, .map = {0x60410010, 0x606C0020}}};
+  for (const Drive402Setup &other : setup.further)
+    device.objects.insert(device.objects.end(), other.more.begin(), other.more.end());
+  addAxis(device, setup, several);
+  for (const Drive402Setup &other : setup.further)
+    addAxis(device, other, several);
   return device;
 }
 
-DriveObjects::DriveObjects(Dictionary &d)
+DriveObjects::DriveObjects(const AxisObjects &d)
     : errorCode(d.at(0x603F)), controlword(d.at(0x6040)), statusword(d.at(0x6041)),
       mode(d.at(0x6060)), modeDisplay(d.at(0x6061)), positionDemand(d.at(0x6062)),
       positionInternal(d.at(0x6063)), position(d.at(0x6064)), followingWindow(d.at(0x6065)),
@@ -239,6 +287,6 @@ DriveObjects::DriveObjects(Dictionary &d)
       faultOption(d.at(0x605E)), homingMethod(d.at(0x6098)), homingFast(d.at(0x6099, 1)),
       homingSlow(d.at(0x6099, 2)), homingAcceleration(d.at(0x609A)), homeOffset(d.at(0x607C)),
       outputs(d.at(0x60FE, 1)), outputMask(d.at(0x60FE, 2)), mostTorque(d.at(0x6072)),
-      secondPosition(d.at(0x60E4, 1)) {}
+      secondPosition(d.at(0x60E4, 1)), supportedModes(d.at(0x6502)) {}
 
 } // namespace stride::can::simulation

@@ -33,7 +33,7 @@ constexpr uint16_t kProbeBits = 0x3F;
 
 } // namespace
 
-void SimulatedDrive402::updateSwitches() noexcept {
+void DriveAxis::updateSwitches() noexcept {
   const dummy::DriveParameters &p = parameters_;
   const double place = exactPosition();
   limitPositive_ = (p.hasLimitPositive && place >= p.limitPositive) ||
@@ -44,7 +44,7 @@ void SimulatedDrive402::updateSwitches() noexcept {
       p.home.actuated(place, p.period) || (sim_ != nullptr && sim_->bForceHomeSwitch != 0);
 }
 
-void SimulatedDrive402::watchFollowingError() noexcept {
+void DriveAxis::watchFollowingError() noexcept {
   const double error = lag();
   const double size = error < 0 ? -error : error;
   const uint64_t window = o_.followingWindow.value;
@@ -55,7 +55,7 @@ void SimulatedDrive402::watchFollowingError() noexcept {
 }
 
 /// Bits 10, 12 and 13 of the statusword.
-uint16_t SimulatedDrive402::modeBits() const noexcept {
+uint16_t DriveAxis::modeBits() const noexcept {
   const bool works = power_ == PowerState::OperationEnabled && !stopping_;
   const bool rests = velocityDemanded_ == 0;
   uint16_t bits = stopping_ && rests ? kTargetReached : 0;
@@ -91,8 +91,8 @@ uint16_t SimulatedDrive402::modeBits() const noexcept {
   return bits;
 }
 
-void SimulatedDrive402::updateObjects() noexcept {
-  const bool operational = state() == NmtState::Operational;
+void DriveAxis::updateObjects() noexcept {
+  const bool operational = node_.state() == NmtState::Operational;
   const bool limited = targetLimited_ || mechanics_.saturated();
   o_.statusword.value =
       static_cast<uint16_t>(statusOf(power_) | modeBits() | kVoltageEnabled |
@@ -116,12 +116,10 @@ void SimulatedDrive402::updateObjects() noexcept {
 }
 
 /// What programs have written into the structure that they share with the drive.
-void SimulatedDrive402::disturb() noexcept {
+void DriveAxis::disturb() noexcept {
   if (sim_ == nullptr)
     return;
   DriveSim &sim = *sim_;
-  setSilent(sim.bLoseCommunication != 0);
-  setDeaf(sim.bHoldParameters != 0);
   persistent_ = sim.bErrorPersistent != 0;
   raiseError(sim.wDriveError);
   if (rising(sim.bMoveByHand, sim.bOldHand))
@@ -138,7 +136,7 @@ void SimulatedDrive402::disturb() noexcept {
 }
 
 /// What programs may read there.
-void SimulatedDrive402::publish() noexcept {
+void DriveAxis::publish() noexcept {
   DriveSim &sim = *sim_;
   const double units = parameters_.unitsPerIncrement;
   sim.fPosition = exactPosition() * units;
@@ -158,7 +156,7 @@ void SimulatedDrive402::publish() noexcept {
   index_ = false;
 }
 
-void SimulatedDrive402::passMarks(double before, double now) noexcept {
+void DriveAxis::passMarks(double before, double now) noexcept {
   double mark = 0;
   if (parameters_.index.passed(before, now, mark)) {
     index_ = true;
@@ -170,13 +168,13 @@ void SimulatedDrive402::passMarks(double before, double now) noexcept {
     capture(0, false, mark);
 }
 
-void SimulatedDrive402::probe(size_t input) noexcept {
+void DriveAxis::probe(size_t input) noexcept {
   if (input < o_.probePosition.size())
     capture(input, false, exactPosition());
 }
 
 /// Switched off: nothing is stored any more.
-void SimulatedDrive402::configureProbes(uint64_t before) noexcept {
+void DriveAxis::configureProbes(uint64_t before) noexcept {
   for (const unsigned shift : {0U, kSecondProbe}) {
     const auto was = static_cast<uint16_t>(before >> shift);
     const auto is = static_cast<uint16_t>(probes_ >> shift);
@@ -189,7 +187,7 @@ void SimulatedDrive402::configureProbes(uint64_t before) noexcept {
 }
 
 /// An edge at an input, or an index pulse, at which a probe may latch.
-void SimulatedDrive402::capture(size_t input, bool index, double increments) noexcept {
+void DriveAxis::capture(size_t input, bool index, double increments) noexcept {
   const unsigned shift = input < 2 ? 0 : kSecondProbe;
   const auto edge = static_cast<unsigned>(input % 2);
   const auto function = static_cast<uint16_t>(probes_ >> shift);

@@ -25,7 +25,10 @@ public:
   explicit SimulatedEncoder406(const Encoder406Setup &setup);
 
   /// It sits on that drive, which must live as long; null: on none.
-  void follow(const SimulatedDrive402 *drive) { drive_ = drive; }
+  void follow(const DriveAxis *drive) { drive_ = drive; }
+  void follow(const SimulatedDrive402 *drive) {
+    drive_ = drive == nullptr ? nullptr : &drive->axis(0);
+  }
 
 private:
   void onReset() noexcept override;
@@ -44,7 +47,7 @@ private:
   void show() noexcept;
 
   Encoder406Setup setup_;
-  const SimulatedDrive402 *drive_ = nullptr;
+  const DriveAxis *drive_ = nullptr;
   uint32_t shift_ = 0; ///< By the preset.
   int64_t lookNs_ = 0; ///< 6200h, or 1 ms: it looks at its disc then.
 };

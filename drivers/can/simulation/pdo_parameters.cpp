@@ -50,6 +50,10 @@ void addParameters(std::vector<ObjectRow> &rows, uint16_t index, const PdoRow &p
     rows.push_back({.index = index, .sub = 6, .type = Type::Unsigned8});
 }
 
+uint16_t placeOf(const PdoRow &row, size_t place) {
+  return row.number != 0 ? static_cast<uint16_t>(row.number - 1) : static_cast<uint16_t>(place);
+}
+
 /// Identifiers that belong to other services. [CiA 301, restricted CAN-IDs]
 bool restricted(uint64_t id) {
   struct Range {
@@ -67,28 +71,31 @@ bool restricted(uint64_t id) {
 void addPdoRows(std::vector<ObjectRow> &rows, std::span<const PdoRow> receive,
                 std::span<const PdoRow> transmit) {
   for (size_t i = 0; i < std::min<size_t>(receive.size(), kBlock); ++i) {
-    addParameters(rows, static_cast<uint16_t>(kReceiveParameters + i), receive[i], false);
-    addMapping(rows, static_cast<uint16_t>(kReceiveMapping + i), receive[i]);
+    const uint16_t place = placeOf(receive[i], i);
+    addParameters(rows, static_cast<uint16_t>(kReceiveParameters + place), receive[i], false);
+    addMapping(rows, static_cast<uint16_t>(kReceiveMapping + place), receive[i]);
   }
   for (size_t i = 0; i < std::min<size_t>(transmit.size(), kBlock); ++i) {
-    addParameters(rows, static_cast<uint16_t>(kTransmitParameters + i), transmit[i], true);
-    addMapping(rows, static_cast<uint16_t>(kTransmitMapping + i), transmit[i]);
+    const uint16_t place = placeOf(transmit[i], i);
+    addParameters(rows, static_cast<uint16_t>(kTransmitParameters + place), transmit[i], true);
+    addMapping(rows, static_cast<uint16_t>(kTransmitMapping + place), transmit[i]);
   }
 }
 
 ProcessData::ProcessData(Dictionary &dictionary, ObjectRules &rules, Emergency &emergency,
-                         size_t receive, size_t transmit, bool remotely)
-    : dictionary_(dictionary), rules_(rules), emergency_(emergency), receivers_(receive),
+                         std::span<const PdoRow> receive, std::span<const PdoRow> transmit,
+                         bool remotely)
+    : dictionary_(dictionary), rules_(rules), emergency_(emergency), receivers_(receive.size()),
       remotely_(remotely) {
-  pdos_.resize(receive + transmit);
+  pdos_.resize(receive.size() + transmit.size());
   for (size_t i = 0; i < pdos_.size(); ++i) {
     Pdo &pdo = pdos_[i];
-    const bool sends = i >= receive;
-    const size_t number = sends ? i - receive : i;
+    const bool sends = i >= receivers_;
+    pdo.place = sends ? placeOf(transmit[i - receivers_], i - receivers_) : placeOf(receive[i], i);
     const auto parameters =
-        static_cast<uint16_t>((sends ? kTransmitParameters : kReceiveParameters) + number);
+        static_cast<uint16_t>((sends ? kTransmitParameters : kReceiveParameters) + pdo.place);
     const auto mapping =
-        static_cast<uint16_t>((sends ? kTransmitMapping : kReceiveMapping) + number);
+        static_cast<uint16_t>((sends ? kTransmitMapping : kReceiveMapping) + pdo.place);
     pdo.cobId = &dictionary.at(parameters, 1);
     pdo.type = &dictionary.at(parameters, 2);
     pdo.inhibit = &dictionary.at(parameters, 3);
@@ -103,8 +110,10 @@ ProcessData::ProcessData(Dictionary &dictionary, ObjectRules &rules, Emergency &
 /// The PDO that a parameter belongs to: its row is in the dictionary, so it is there.
 const ProcessData::Pdo &ProcessData::pdoOf(uint16_t index) const {
   const bool sends = index >= kTransmitParameters;
-  const size_t number = index % kBlock;
-  return pdos_[sends ? receivers_ + number : number];
+  const std::span<const Pdo> all = pdos_;
+  const std::span<const Pdo> some = sends ? all.subspan(receivers_) : all.first(receivers_);
+  return *std::find_if(some.begin(), some.end(),
+                       [index](const Pdo &pdo) { return pdo.place == index % kBlock; });
 }
 
 Abort ProcessData::checkMapping(const Pdo &pdo, uint32_t mapping, Place &place) const {
@@ -189,7 +198,7 @@ void ProcessData::resolve(Pdo &pdo) noexcept {
   if (checkCount(pdo, pdo.map[0]->value) != Abort::None)
     return;
   for (uint64_t i = 1; i <= pdo.map[0]->value; ++i) {
-    Place &place = pdo.place[pdo.places++];
+    Place &place = pdo.content[pdo.places++];
     (void)checkMapping(pdo, static_cast<uint32_t>(pdo.map[i]->value), place);
     pdo.bytes = static_cast<uint8_t>(pdo.bytes + place.bytes);
   }

@@ -63,7 +63,7 @@ void ProcessData::receive(const Frame &frame, int64_t nowNs) noexcept {
 void ProcessData::apply(Pdo &pdo) noexcept {
   size_t from = 0;
   for (size_t i = 0; i < pdo.places; ++i) {
-    const Place &place = pdo.place[i];
+    const Place &place = pdo.content[i];
     const auto bytes = std::span(pdo.frame.data).subspan(from, place.bytes);
     from += place.bytes;
     if (place.entry == nullptr)
@@ -92,7 +92,7 @@ void ProcessData::build(Pdo &pdo) noexcept {
   pdo.frame.length = pdo.bytes;
   size_t to = 0;
   for (size_t i = 0; i < pdo.places; ++i) {
-    const Place &place = pdo.place[i];
+    const Place &place = pdo.content[i];
     const uint64_t value = place.entry == nullptr ? 0 : place.entry->value;
     encode(value, std::span(pdo.frame.data).subspan(to, place.bytes));
     to += place.bytes;
@@ -131,7 +131,7 @@ bool ProcessData::changed(const Pdo &pdo) const noexcept {
     return true;
   size_t from = 0;
   for (size_t i = 0; i < pdo.places; ++i) {
-    const Place &place = pdo.place[i];
+    const Place &place = pdo.content[i];
     const auto *const now = pdo.frame.data.begin() + from;
     if (place.entry != nullptr && rules_.triggers(*place.entry) &&
         !std::equal(now, now + place.bytes, pdo.sent.data.begin() + from))

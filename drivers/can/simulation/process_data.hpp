@@ -21,6 +21,7 @@ inline constexpr size_t kMapped = 8;
 
 /// One PDO, as the node has it when it is new.
 struct PdoRow {
+  uint16_t number = 0;                 ///< From 1; 0: its place.
   uint32_t cobId = 0;                  ///< Without the node's id, which is added.
   uint8_t type = 255;                  ///< 0 … 240 with SYNC, 254 and 255 with events.
   std::array<uint32_t, kMapped> map{}; ///< Index, subindex, bits; 0 after the last one.
@@ -35,8 +36,8 @@ void addPdoRows(std::vector<ObjectRow> &rows, std::span<const PdoRow> receive,
 class ProcessData {
 public:
   /// The rows must be in the dictionary. `remotely`: TPDOs are sent when somebody asks by RTR.
-  ProcessData(Dictionary &dictionary, ObjectRules &rules, Emergency &emergency, size_t receive,
-              size_t transmit, bool remotely);
+  ProcessData(Dictionary &dictionary, ObjectRules &rules, Emergency &emergency,
+              std::span<const PdoRow> receive, std::span<const PdoRow> transmit, bool remotely);
 
   /// Whether somebody may write that parameter of a PDO now.
   [[nodiscard]] Abort beforeWrite(const Entry &entry, uint64_t value, bool preOperational) const;
@@ -70,6 +71,7 @@ private:
   };
 
   struct Pdo {
+    uint16_t place = 0; ///< Of its parameters: its number less 1.
     Entry *cobId = nullptr;
     Entry *type = nullptr;
     Entry *inhibit = nullptr;
@@ -81,7 +83,7 @@ private:
     bool exists = false;
     uint16_t id = 0;
     size_t places = 0;
-    std::array<Place, kMapped> place{};
+    std::array<Place, kMapped> content{};
     uint8_t bytes = 0;
     // While the node is operational:
     Frame frame;          ///< Received, or to be sent.
