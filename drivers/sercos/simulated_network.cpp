@@ -6,6 +6,7 @@
 #include "runtime/iec/math.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace stride::sercos {
 namespace {
@@ -152,6 +153,12 @@ void SimulatedNetwork::publish(const Master &master) const noexcept {
   sim_->udiMstLost = static_cast<uint32_t>(master.counters().mstLost);
   sim_->udiAtLost = static_cast<uint32_t>(master.counters().atLost);
   sim_->udiRingFalls = static_cast<uint32_t>(master.counters().ringFalls);
+  const size_t shown = std::min(master.driveCount(), std::size(sim_->awStatus.v));
+  for (size_t i = 0; i < shown; ++i) {
+    const Slave &slave = master.drive(i);
+    sim_->awAddress.v[i] = slave.config().address;
+    sim_->awStatus.v[i] = slave.status().communication ? slave.axis().statusWord() : uint16_t{0};
+  }
 }
 
 } // namespace stride::sercos

@@ -37,6 +37,8 @@ public:
   void command(const bus::DriveCommand &command) { command_ = command; }
   /// Without `communication`.
   [[nodiscard]] const bus::DriveStatus &status() const { return status_; }
+  /// S-0-0135, of its last telegram.
+  [[nodiscard]] uint16_t statusWord() const { return statusWord_; }
   /// What its second encoder shows (S-0-0053), as a counter of 32 bits; 0: it has none. [inc]
   [[nodiscard]] uint32_t secondPosition() const { return seconds_.counter(); }
   /// Bit n stands for mode n.
