@@ -18,22 +18,17 @@ constexpr double kUnlimitedJerk = 0x1p1000;
 class Builder {
 public:
   Builder(Profile &profile, const Scale &scale, const State &start) noexcept
-      : profile_(profile), scale_(scale),
+      : profile_(profile), next_(profile.segments), length_(scale.length),
+        velocity_(scale.velocity), acceleration_(scale.acceleration),
+        jerk_(scale.acceleration - scale.time), time_(scale.time),
         place_(start.position), state_{0.0, exact::ldexp(start.velocity, -scale.velocity),
-                                       exact::ldexp(start.acceleration, -scale.acceleration)} {
-    profile.count = 0;
-    profile.duration = 0.0;
-  }
+                                       exact::ldexp(start.acceleration, -scale.acceleration)} {}
 
   /// Goes on with a phase.
   void forward(const Phase &phase, double sign) noexcept {
-    if (!(phase.duration > 0.0))
-      return;
-    append(profile_.duration, place_, state_, sign * phase.jerk);
-    state_ = after(state_, {phase.duration, sign * phase.jerk, sign * phase.acceleration});
-    place_ += length(state_.position);
-    state_.position = 0.0;
-    profile_.duration += seconds(phase.duration);
+    if (phase.duration > 0.0)
+      forward(phase, sign,
+              after(state_, {phase.duration, sign * phase.jerk, sign * phase.acceleration}));
   }
 
   void forward(const VelocityChange &change, double sign) noexcept {
@@ -45,16 +40,18 @@ public:
   [[nodiscard]] const State &state() const noexcept { return state_; }
 
   /// A distance in user units.
-  [[nodiscard]] double length(double scaled) const noexcept {
-    return exact::ldexp(scaled, scale_.length);
-  }
+  [[nodiscard]] double length(double scaled) const noexcept { return length_(scaled); }
 
   /// The axis is at rest now, or moves at a constant velocity: without the rounding of the phases.
   void settle(double velocity) noexcept { state_ = {0.0, velocity, 0.0}; }
 
-  void route(const Route &route, double sign, double target, double endVelocity) noexcept {
-    for (int i = 0; i < route.headCount; ++i)
-      forward(route.head[i], sign);
+  void route(const Route &route, double side, double target, double endVelocity) noexcept {
+    const double sign = side * route.sign;
+    for (int i = 0; i < route.headCount; ++i) {
+      const State &end = route.ends[i];
+      forward(route.head[i], sign,
+              {sign * end.position, sign * end.velocity, sign * end.acceleration});
+    }
     if (route.cruise > 0.0) {
       settle(sign * route.cruiseVelocity);
       forward({route.cruise, 0.0, 0.0}, sign);
@@ -65,28 +62,18 @@ public:
   /// A change of velocity that ends at `target` and is anchored there.
   void arrive(const VelocityChange &change, double sign, double target,
               double endVelocity) noexcept {
-    double starts[3];
-    double time = profile_.duration;
-    for (int i = 0; i < 3; ++i) {
-      starts[i] = time;
-      time += seconds(change.phases[i].duration);
-    }
+    const Phase &first = change.phases[0];
+    const Phase &hold = change.phases[1];
+    const Phase &last = change.phases[2];
     // Back from the end; each piece is anchored at its own.
-    State ends[3];
-    ends[2] = {0.0, endVelocity, 0.0};
-    for (int i = 2; i > 0; --i) {
-      ends[i - 1] =
-          numeric::evaluateCubic(ends[i], sign * change.phases[i].jerk, -change.phases[i].duration);
-      ends[i - 1].acceleration = sign * change.phases[i - 1].acceleration;
-    }
-    for (int i = 0; i < 3; ++i) {
-      if (!(change.phases[i].duration > 0.0))
-        continue;
-      profile_.duration = starts[i];
-      append(starts[i] + seconds(change.phases[i].duration), target + length(ends[i].position),
-             ends[i], sign * change.phases[i].jerk);
-    }
-    profile_.duration = time;
+    const State end = {0.0, endVelocity, 0.0};
+    State held = numeric::evaluateCubic(end, sign * last.jerk, -last.duration);
+    held.acceleration = sign * hold.acceleration;
+    State reached = numeric::evaluateCubic(held, sign * hold.jerk, -hold.duration);
+    reached.acceleration = sign * first.acceleration;
+    approach(first, sign, target, reached);
+    approach(hold, sign, target, held);
+    approach(last, sign, target, end);
     place_ = target;
     settle(endVelocity);
   }
@@ -94,37 +81,56 @@ public:
   /// Ends the profile with this velocity, and where the axis is. False if a number of the profile
   /// cannot be represented; then it is empty.
   bool finish(double position, double velocity) noexcept {
+    profile_.count = static_cast<int32_t>(next_ - profile_.segments);
+    profile_.duration = duration_;
     profile_.end = {place_, velocity, 0.0};
-    bool good = exact::isfinite(profile_.duration) && exact::isfinite(place_);
-    for (int32_t i = 0; i < profile_.count; ++i) {
-      const Segment &segment = profile_.segments[i];
-      good = good && exact::isfinite(segment.reference) && exact::isfinite(segment.jerk) &&
-             exact::isfinite(segment.origin.position) && exact::isfinite(segment.origin.velocity) &&
-             exact::isfinite(segment.origin.acceleration);
-    }
+    double sum = duration_ + place_; // is no number where one of them is none
+    for (const Segment *it = profile_.segments; it != next_; ++it)
+      sum += (it->reference + it->jerk) +
+             (it->origin.position + it->origin.velocity + it->origin.acceleration);
+    const bool good = exact::isfinite(sum);
     if (!good)
       profile_ = Profile{{}, 0, 0.0, {position, 0.0, 0.0}};
     return good;
   }
 
 private:
-  [[nodiscard]] double seconds(double scaled) const noexcept {
-    return exact::ldexp(scaled, scale_.time);
+  /// Goes on with a phase that lasts and ends in `end`, whose position counts from its begin.
+  void forward(const Phase &phase, double sign, const State &end) noexcept {
+    append(duration_, place_, state_, sign * phase.jerk);
+    place_ += length_(end.position);
+    duration_ += time_(phase.duration);
+    settle(end.velocity);
+    state_.acceleration = end.acceleration;
+  }
+
+  /// A phase that ends in `end`, whose position counts from `target`.
+  void approach(const Phase &phase, double sign, double target, const State &end) noexcept {
+    const double until = duration_ + time_(phase.duration);
+    if (phase.duration > 0.0)
+      append(until, target + length_(end.position), end, sign * phase.jerk);
+    duration_ = until;
   }
 
   void append(double reference, double position, const State &state, double jerk) noexcept {
-    Segment &segment = profile_.segments[profile_.count++];
-    segment.start = profile_.duration;
+    Segment &segment = *next_++;
+    segment.start = duration_;
     segment.reference = reference;
     segment.origin.position = position;
-    segment.origin.velocity = exact::ldexp(state.velocity, scale_.velocity);
-    segment.origin.acceleration = exact::ldexp(state.acceleration, scale_.acceleration);
-    segment.jerk = exact::ldexp(jerk, scale_.acceleration - scale_.time);
+    segment.origin.velocity = velocity_(state.velocity);
+    segment.origin.acceleration = acceleration_(state.acceleration);
+    segment.jerk = jerk_(jerk);
     segment.frequency = 0.0;
   }
 
   Profile &profile_;
-  Scale scale_;
+  Segment *next_;
+  double duration_ = 0.0;
+  PowerOfTwo length_; ///< The units of the scaled problem.
+  PowerOfTwo velocity_;
+  PowerOfTwo acceleration_;
+  PowerOfTwo jerk_;
+  PowerOfTwo time_;
   double place_; ///< Where the axis is. [u]
   State state_;  ///< How it moves there; its position is 0.
 };
@@ -160,8 +166,19 @@ void clear(Profile &profile, double position) noexcept {
 }
 
 bool areLimits(const JerkLimits &limits) noexcept {
+  const double sum = (limits.velocity + limits.acceleration) + (limits.deceleration + limits.jerk);
+  if (__builtin_expect(exact::isfinite(sum), 1))
+    return limits.velocity > 0.0 && limits.acceleration > 0.0 && limits.deceleration > 0.0 &&
+           limits.jerk > 0.0;
   return exact::isPositive(limits.velocity) && exact::isPositive(limits.acceleration) &&
          exact::isPositive(limits.deceleration) && exact::isPositive(limits.jerk);
+}
+
+bool areFinite(const State &start, double target, double endVelocity) noexcept {
+  const double sum =
+      (start.position + start.velocity) + (start.acceleration + target) + endVelocity;
+  return exact::isfinite(sum) ||
+         (isFinite(start) && exact::isfinite(target) && exact::isfinite(endVelocity));
 }
 
 Scale scaleOf(double distance, const State &start, double endVelocity,
@@ -188,10 +205,15 @@ void moveFromRest(Builder &builder, double distance, double target, double endVe
   const double side = endVelocity != 0.0 ? exact::signOf(endVelocity) : exact::signOf(distance);
   const double speed = side * endVelocity;
   const double ahead = side * distance;
-  const VelocityChange runUp(0.0, 0.0, speed, limits.ahead());
-  const double runUpWay = runUp.distance(0.0, 0.0, speed);
   Task task = {0.0, 0.0, ahead, speed, limits.velocity, 0.0, limits.ahead(), noise};
   Route route;
+  if (speed == 0.0) {
+    (void)findRoute(route, task);
+    builder.route(route, side, target, 0.0);
+    return;
+  }
+  const VelocityChange runUp(0.0, 0.0, speed, limits.ahead());
+  const double runUpWay = runUp.distance(0.0, 0.0, speed);
   if (ahead >= runUpWay - noise) {
     (void)findRoute(route, task);
     builder.route(route, side, target, endVelocity);
@@ -243,7 +265,7 @@ void moveOnOneSide(Builder &builder, const State &state, double distance, double
 PlanError planParabolic(Profile &profile, const State &start, double target, double endVelocity,
                         const JerkLimits &limits) noexcept {
   clear(profile, start.position);
-  if (!isFinite(start) || !exact::isfinite(target) || !exact::isfinite(endVelocity))
+  if (!areFinite(start, target, endVelocity))
     return PlanError::InvalidState;
   if (!areLimits(limits))
     return PlanError::InvalidLimit;

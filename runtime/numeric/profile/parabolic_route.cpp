@@ -1,6 +1,7 @@
 #include "runtime/numeric/profile/parabolic_route.hpp"
 
 #include "runtime/numeric/profile/bracketed_root.hpp"
+#include "runtime/numeric/profile/parabolic_push.hpp"
 #include "runtime/numeric/profile/scale.hpp"
 
 namespace stride::motion::parabolic {
@@ -36,49 +37,6 @@ double durationWithin(const Task &task, const State &from, const Phase &phase) n
   return bracketedRoot(missing, low, high);
 }
 
-/// While the axis still slows down, the task's reach may rise, fall and rise again with the time
-/// for which it is pushed on: the acceleration at which a push that begins in `from` must end to
-/// reach farthest before the fall. Not below 0 if there is no fall.
-///
-/// After the push the acceleration falls to -z, where z^2 = a^2 + s - e (s: the velocity at which
-/// the push would have ended the slowing down, e: the end velocity, both times the jerk) or the
-/// falling limit. The reach then grows with the sign of s + a^2 + a z / 2, which is convex in a.
-double summitOf(const Task &task, const State &from) noexcept {
-  const double jerk = task.rates.jerk;
-  const double limit = task.rates.falling;
-  const double first = exact::larger(from.acceleration, -limit);
-  const double settled = jerk * from.velocity - 0.5 * from.acceleration * from.acceleration;
-  const double gain = settled - jerk * task.endVelocity;
-  const double rest = limit * limit * (1.0 / 16.0) - settled;
-  if (!(first < 0.0 && gain > 0.0 && rest > 0.0))
-    return 0.0;
-  double rate = first;
-  if (rate * rate + gain > limit * limit) { // the falling limit is reached
-    const double summit = -0.25 * limit - exact::sqrt(rest);
-    const bool held = summit * summit + gain >= limit * limit;
-    if (held)
-      return summit >= first ? summit : 0.0;
-    const double last = limit * limit - gain; // of these the limit is reached
-    rate = exact::larger(first, last > 0.0 ? -exact::sqrt(last) : 0.0);
-  }
-  for (int i = 0; i < 30; ++i) { // Newton's tangents lie below a convex function
-    const double z = exact::sqrt(rate * rate + gain);
-    const double slope = 2.0 * rate + 0.5 * z + 0.5 * rate * (rate / z);
-    const double growth = settled + rate * rate + 0.5 * rate * z;
-    if (!(growth > 0.0))
-      return i > 0 ? rate : 0.0;
-    if (!(slope < 0.0))
-      return 0.0;
-    const double step = growth / slope;
-    rate -= step;
-    if (!(rate < 0.0))
-      return 0.0;
-    if (-step <= 4.0 * kEpsilon * -rate)
-      break;
-  }
-  return rate;
-}
-
 /// Finds the fastest way when the axis has its end velocity already and departs from it so little
 /// that the last digits of the velocities would decide on the durations: four equal phases. False
 /// if it is no such task.
@@ -100,13 +58,91 @@ bool findBump(Route &route, const Task &task) noexcept {
       task.rates.rising < task.rates.falling ? task.rates.rising : task.rates.falling;
   if (exact::fabs(rate) > weaker || exact::fabs(rate * time) > exact::fabs(task.top - velocity))
     return false;
-  route.head[0] = {time, jerk, rate};
-  route.head[1] = {time, -jerk, 0.0};
-  route.headCount = 2;
+  State state = {0.0, velocity, 0.0};
+  route.add({time, jerk, rate}, state);
+  route.add({time, -jerk, 0.0}, state);
   route.tail.phases[0] = {time, -jerk, -rate};
   route.tail.phases[1] = {0.0, 0.0, -rate};
   route.tail.phases[2] = {time, jerk, 0.0};
   return true;
+}
+
+/// The way by way of the top velocity; returns how far it stays short of the task's distance.
+double goByTop(Route &route, const Task &task) noexcept {
+  const VelocityChange push(task.velocity, task.acceleration, task.top, task.rates);
+  State state = {0.0, task.velocity, task.acceleration};
+  for (const Phase &phase : push.phases)
+    if (phase.duration > 0.0)
+      route.add(phase, state);
+  state.velocity = task.top;
+  state.acceleration = 0.0;
+  route.tail = task.changeFrom(state);
+  return task.distance - (state.position + route.tail.distance(task.top, 0.0, task.endVelocity));
+}
+
+/// Goes on at the top velocity. False if that leads no farther.
+bool cruise(Route &route, const Task &task, double missing) noexcept {
+  if (!(task.top > 0.0))
+    return false;
+  route.cruise = missing / task.top;
+  route.cruiseVelocity = task.top;
+  return true;
+}
+
+/// The way of a push and the change to the end velocity; returns how far beyond the task's distance
+/// it ends.
+double goByPush(Route &route, const Task &task, const Push &push) noexcept {
+  State state = {0.0, task.velocity, task.acceleration};
+  const double time = (push.rate - task.acceleration) / task.rates.jerk;
+  route.headCount = 0;
+  if (time > 0.0)
+    route.add({time, task.rates.jerk, push.rate}, state);
+  if (push.hold > 0.0)
+    route.add({push.hold, 0.0, push.rate}, state);
+  route.tail = task.changeFrom(state);
+  return state.position +
+         route.tail.distance(state.velocity, state.acceleration, task.endVelocity) - task.distance;
+}
+
+/// The same, without the rounding of the formulas where it is more than that of the way. False if
+/// it remains.
+bool goExactlyByPush(Route &route, const Task &task, Push push) noexcept {
+  const double gap = goByPush(route, task, push);
+  if (!(exact::fabs(gap) > 0.25 * task.noise))
+    return true;
+  // How the way grows with the push: see parabolic_push.cpp.
+  const double jerk = task.rates.jerk;
+  const double falling = -route.tail.phases[0].acceleration;
+  const double velocity =
+      route.headCount > 0 ? route.ends[route.headCount - 1].velocity : task.velocity;
+  const double growth = (1.0 + push.rate / falling) *
+                        (velocity * jerk + 0.5 * push.rate * (push.rate + falling)) / jerk;
+  if (falling > 0.0 && growth > 0.0) {
+    if (push.hold > 0.0)
+      push.hold -= gap / growth;
+    else
+      push.rate = exact::smaller(push.rate - 0.5 * jerk * (gap / growth), task.rates.rising);
+  }
+  return exact::fabs(goByPush(route, task, push)) <= 4.0 * task.noise;
+}
+
+/// The fastest way by formulas, for a regular task: see findForward.
+enum class Answer : uint8_t {
+  Found,
+  None,    ///< The top velocity leads no farther.
+  Unknown, ///< Rounding would matter.
+};
+
+Answer findByFormulas(Route &route, const Task &task) noexcept {
+  if (!isRegular(task))
+    return Answer::Unknown;
+  Push push;
+  if (findPush(push, task))
+    return goExactlyByPush(route, task, push) ? Answer::Found : Answer::Unknown;
+  const double missing = goByTop(route, task);
+  if (!(missing > task.noise))
+    return missing >= -16.0 * task.noise ? Answer::Found : Answer::Unknown;
+  return cruise(route, task, missing) ? Answer::Found : Answer::None;
 }
 
 /// Finds the fastest way for a task that must go beyond where the direct change of velocity ends
@@ -115,6 +151,10 @@ bool findBump(Route &route, const Task &task) noexcept {
 bool findForward(Route &route, const Task &task) noexcept {
   if (findBump(route, task))
     return true;
+  const Answer answer = findByFormulas(route, task);
+  if (answer != Answer::Unknown)
+    return answer == Answer::Found;
+  route.headCount = 0;
   State state = {0.0, task.velocity, task.acceleration};
   const VelocityChange push(task.velocity, task.acceleration, task.top, task.rates);
   for (const Phase &phase : push.phases) {
@@ -127,48 +167,80 @@ bool findForward(Route &route, const Task &task) noexcept {
       const Phase rise = partOf(phase, state, time);
       if (summit < 0.0 && time > 0.0 && task.reach(after(state, rise)) >= task.distance) {
         const Phase part = partOf(phase, state, durationWithin(task, state, rise));
-        route.head[route.headCount++] = part;
-        route.tail = task.changeFrom(after(state, part));
+        route.add(part, state);
+        route.tail = task.changeFrom(state);
         return true;
       }
     }
     if (task.reach(next) >= task.distance) {
       const Phase part = partOf(phase, state, durationWithin(task, state, phase));
-      route.head[route.headCount++] = part;
-      route.tail = task.changeFrom(after(state, part));
+      route.add(part, state);
+      route.tail = task.changeFrom(state);
       return true;
     }
-    route.head[route.headCount++] = phase;
-    state = next;
+    route.add(phase, state);
   }
   state.velocity = task.top;
   state.acceleration = 0.0;
   route.tail = task.changeFrom(state);
   const double missing = task.distance - task.reach(state);
-  if (missing <= task.noise)
-    return true;
-  if (!(task.top > 0.0))
+  return missing <= task.noise || cruise(route, task, missing);
+}
+
+/// A direct change of velocity that ends with a short bend back lasts as long as the root of the
+/// last digits of the velocities says: makes the bend such that the change ends at the task's
+/// distance, which is `gap` farther, if so small a difference of velocities does it.
+bool bend(VelocityChange &change, const Task &task, double gap, double rounding) noexcept {
+  const double jerk = task.rates.jerk;
+  const double swing = task.acceleration * (task.acceleration / jerk);
+  const double digits =
+      16.0 * kEpsilon * (exact::fabs(task.velocity) + exact::fabs(task.endVelocity) + swing);
+  const double end = task.endVelocity;
+  if (!(gap * gap * jerk <= 16.0 * end * end * digits) || change.phases[1].duration > 0.0)
     return false;
-  route.cruise = missing / task.top;
-  route.cruiseVelocity = task.top;
-  return true;
+  const double sign = change.phases[0].jerk < 0.0 ? -1.0 : 1.0;
+  const double before = sign * change.phases[0].acceleration;
+  double peak = before;
+  for (int i = 0; i < 3; ++i) {
+    peak += 0.5 * jerk * (gap / end);
+    const double time = (peak - sign * task.acceleration) / jerk;
+    if (!(peak >= 0.0 && time >= 0.0 &&
+          exact::fabs(peak * peak - before * before) <= jerk * digits))
+      return false;
+    change.phases[0] = {time, sign * jerk, sign * peak};
+    change.phases[1] = {0.0, 0.0, sign * peak};
+    change.phases[2] = {peak / jerk, -sign * jerk, 0.0};
+    gap = task.distance - change.distance(task.velocity, task.acceleration, end);
+    if (exact::fabs(gap) <= rounding)
+      return true;
+  }
+  return false;
 }
 
 } // namespace
 
 bool findRoute(Route &route, const Task &task) noexcept {
   const State start = {0.0, task.velocity, task.acceleration};
-  const double gap = task.distance - task.reach(start);
-  route = Route{};
-  route.tail = task.changeFrom(start);
-  if (exact::fabs(gap) <=
-      task.noise + blurOf(route.tail, task.velocity, task.acceleration, task.rates.jerk))
+  route.headCount = 0;
+  route.cruise = 0.0;
+  route.sign = 1.0;
+  double gap = task.distance;
+  double rounding = task.noise;
+  if (task.velocity != 0.0 || task.acceleration != 0.0 || task.endVelocity != 0.0) {
+    route.tail = task.changeFrom(start);
+    gap -= route.tail.distance(task.velocity, task.acceleration, task.endVelocity);
+    rounding += blurOf(route.tail, task.velocity, task.acceleration, task.rates.jerk);
+  }
+  if (!(exact::fabs(gap) > rounding)) {
+    route.tail = task.changeFrom(start);
+    return true;
+  }
+  if (task.endVelocity != 0.0 && bend(route.tail, task, gap, rounding))
     return true;
   if (gap > 0.0)
     return findForward(route, task);
-  const bool found = findForward(route, task.mirrored());
-  route.mirror();
-  return found;
+  route.sign = -1.0;
+  return findForward(route, task.mirrored());
 }
 
 } // namespace stride::motion::parabolic

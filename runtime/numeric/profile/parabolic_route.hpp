@@ -48,15 +48,17 @@ inline double settledVelocity(double velocity, double acceleration, double jerk)
 
 /// The fastest change to a velocity without acceleration: up to three phases.
 struct VelocityChange {
-  Phase phases[3] = {};
+  Phase phases[3];
 
-  VelocityChange() noexcept = default;
+  VelocityChange() noexcept {} // no change yet: what a route has is assigned
   VelocityChange(double velocity, double acceleration, double to, const Rates &rates) noexcept {
     const double jerk = rates.jerk;
     const double settled = settledVelocity(velocity, acceleration, jerk);
     if (exact::fabs(to - settled) <= 8.0 * kEpsilon * (exact::fabs(velocity) + exact::fabs(to))) {
       // It is under way; the last digits would cost the root of what they are.
       set(0, exact::fabs(acceleration) / jerk, acceleration > 0.0 ? -jerk : jerk, 0.0);
+      set(1, 0.0, 0.0, 0.0);
+      set(2, 0.0, 0.0, 0.0);
       return;
     }
     const double sign = to > settled ? 1.0 : -1.0;
@@ -71,10 +73,16 @@ struct VelocityChange {
       return;
     }
     const double square = jerk * gain + 0.5 * from * from;
-    double peak = square > 0.0 ? exact::sqrt(square) : 0.0;
+    const double most = limit * limit;
+    double peak = 0.0;
     double hold = 0.0;
-    if (peak > limit) {
-      hold = (gain - (limit * limit - 0.5 * from * from) / jerk) / limit;
+    bool held = square > most * (1.0 + 4.0 * kEpsilon);
+    if (!held) { // else without a root
+      peak = square > 0.0 ? exact::sqrt(square) : 0.0;
+      held = peak > limit;
+    }
+    if (held) {
+      hold = (gain - (most - 0.5 * from * from) / jerk) / limit;
       peak = limit;
     }
     set(0, (peak - from) / jerk, sign * jerk, sign * peak);
@@ -106,18 +114,24 @@ private:
 
 /// How to reach a place with a velocity.
 struct Route {
-  Phase head[3];       ///< What the axis does first.
-  int headCount = 0;   ///< Valid entries of `head`.
-  double cruise = 0.0; ///< Time at `cruiseVelocity`, 0 for none.
-  double cruiseVelocity = 0.0;
-  VelocityChange tail; ///< To the end velocity; ends at the target.
+  Phase head[3];               ///< What the axis does first; nothing but the first `headCount`.
+  State ends[3];               ///< Of these phases; each position counts from the phase's begin.
+  int headCount = 0;           ///< Valid entries of `head` and `ends`.
+  double cruise = 0.0;         ///< Time at `cruiseVelocity`, 0 for none.
+  double cruiseVelocity = 0.0; ///< Mirrored as the phases are.
+  double sign = 1.0;           ///< -1: all of it is mirrored.
+  VelocityChange tail;         ///< To the end velocity; ends at the target.
 
-  void mirror() noexcept {
-    for (int i = 0; i < headCount; ++i)
-      head[i].mirror();
-    cruiseVelocity = -cruiseVelocity;
-    for (Phase &phase : tail.phases)
-      phase.mirror();
+  Route() noexcept {} // `head`, `ends` and `tail` are assigned
+
+  /// The axis, which is in `state`, first does this, too; then it is in that state.
+  void add(const Phase &phase, State &state) noexcept {
+    const State next = after({0.0, state.velocity, state.acceleration}, phase);
+    head[headCount] = phase;
+    ends[headCount++] = next;
+    state.position += next.position;
+    state.velocity = next.velocity;
+    state.acceleration = next.acceleration;
   }
 };
 

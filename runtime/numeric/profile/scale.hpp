@@ -8,15 +8,37 @@ namespace stride::motion {
 
 /// Binary exponent of |x|, 0.5 <= |x| / 2^e < 1; far below every other for 0.
 inline int exponentOf(double x) noexcept {
-  const auto bits = static_cast<int>(__builtin_bit_cast(uint64_t, x) >> 52) & 0x7ff;
-  if (__builtin_expect(bits != 0 && bits != 0x7ff, 1))
-    return bits - 1022;
+  const auto bits = static_cast<unsigned>(__builtin_bit_cast(uint64_t, x) >> 52) & 0x7ffU;
+  if (__builtin_expect(bits - 1U < 0x7feU, 1))
+    return static_cast<int>(bits) - 1022;
   if (x == 0.0)
     return -4000;
   int exponent = 0;
   (void)exact::frexp(x, &exponent);
   return exponent;
 }
+
+/// A power of two to multiply with: exact unless the result is too large or too small for all its
+/// digits. Two factors, because its exponent may be that of a quotient or a product of numbers.
+class PowerOfTwo {
+public:
+  explicit PowerOfTwo(int exponent) noexcept : first_(of(exponent)), second_(1.0) {
+    if (__builtin_expect(exponent < -1000 || exponent > 1000, 0)) {
+      const int middle = exponent < 0 ? -1000 : 1000;
+      const int rest = exponent - middle;
+      first_ = of(middle);
+      second_ = of(rest < -1000 ? -1000 : rest > 1000 ? 1000 : rest);
+    }
+  }
+  double operator()(double x) const noexcept { return x * first_ * second_; }
+
+private:
+  static double of(int exponent) noexcept {
+    return __builtin_bit_cast(double, static_cast<uint64_t>(exponent + 1023) << 52);
+  }
+  double first_;
+  double second_;
+};
 
 /// Units for a motion. All are powers of two, so that going to them and back is exact and a plan
 /// does not depend on the user's units.
