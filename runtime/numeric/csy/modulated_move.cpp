@@ -141,8 +141,8 @@ bool goesOn(const Course &leg, const Course &next) noexcept {
          (leg.down > kNothing * leg.steady && fallsFromItsBegin);
 }
 
-/// Whether legs may become one: its ramps are nowhere faster than what is allowed there.
-bool mayMerge(const ModulatedMove &move, uint32_t first, uint32_t last, double peak) noexcept {
+/// Up to which leg a ramp may lead: `last`, or the first one after which it would be too fast.
+uint32_t reachOf(const ModulatedMove &move, uint32_t first, uint32_t last, double peak) noexcept {
   double whole = 0.0;
   for (uint32_t i = first; i <= last; ++i)
     whole += move.leg[i].way;
@@ -153,43 +153,61 @@ bool mayMerge(const ModulatedMove &move, uint32_t first, uint32_t last, double p
   const double rising = 0.5 * (enter + peak) * up;
   const double falling = 0.5 * (leave + peak) * down;
   const double shape = move.limits.shape;
+  constexpr double kSlack = 1.0 + 1e-9;
   double way = 0.0;
   for (uint32_t i = first; i < last; ++i) {
     way += move.leg[i].way;
     const double left = whole - way;
-    const double slack = 1.0 + 1e-9;
-    if (way < rising && rampSpeedAt(enter, peak, up, shape, way) > slack * move.leg[i].limit)
-      return false;
+    if (way < rising && rampSpeedAt(enter, peak, up, shape, way) > kSlack * move.leg[i].limit)
+      return i;
     if (left < falling &&
-        rampSpeedAt(leave, peak, down, shape, left) > slack * move.leg[i + 1].limit)
-      return false;
+        rampSpeedAt(leave, peak, down, shape, left) > kSlack * move.leg[i + 1].limit)
+      return i;
   }
-  return true;
+  return last;
 }
 
-/// Shaped ramps lead over several legs: these become one, from the first on.
+/// The last leg of a run of legs whose ramps go on from one to the next, and the greatest speed.
+struct Run {
+  uint32_t last;
+  double peak;
+};
+
+Run runFrom(const ModulatedMove &move, uint32_t first, uint32_t last) noexcept {
+  Course course = courseOf(move, first);
+  Run run{first, course.peak};
+  while (run.last < last) {
+    const Course next = courseOf(move, run.last + 1);
+    if (!goesOn(course, next))
+      break;
+    course = next;
+    run.peak = larger(run.peak, next.peak);
+    ++run.last;
+  }
+  return run;
+}
+
+/// Shaped ramps lead over several legs: these become one. It takes a bounded time, as it is done in
+/// one cycle: when too much has been tried, legs stay what they are.
 void mergeLegs(ModulatedMove &move) noexcept {
   uint32_t made = 0;
+  uint32_t budget = 4 * move.legs;
   for (uint32_t first = 0; first < move.legs;) {
-    uint32_t last = first;
-    Course course = courseOf(move, first);
-    double peak = course.peak;
-    while (last + 1 < move.legs) {
-      const Course next = courseOf(move, last + 1);
-      if (!goesOn(course, next))
+    Run run = runFrom(move, first, move.legs - 1);
+    while (run.last > first) {
+      const uint32_t tried = run.last - first;
+      const uint32_t reach = tried > budget ? first : reachOf(move, first, run.last, run.peak);
+      budget -= tried < budget ? tried : budget;
+      if (reach == run.last)
         break;
-      peak = larger(peak, next.peak);
-      course = next;
-      ++last;
+      run = runFrom(move, first, reach);
     }
-    if (!mayMerge(move, first, last, peak))
-      last = first;
     Leg leg = move.leg[first];
-    for (uint32_t i = first + 1; i <= last; ++i)
+    for (uint32_t i = first + 1; i <= run.last; ++i)
       leg.way += move.leg[i].way;
-    leg.limit = first == last ? leg.limit : peak;
+    leg.limit = first == run.last ? leg.limit : run.peak;
     move.leg[made++] = leg;
-    first = last + 1;
+    first = run.last + 1;
   }
   move.legs = made;
 }
