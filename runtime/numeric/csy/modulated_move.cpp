@@ -125,7 +125,7 @@ void meetLegs(ModulatedMove &move) noexcept {
 double rampSpeedAt(double low, double high, double duration, double shape, double way) noexcept {
   double before = 0.0;
   double after = duration;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 32; ++i) {
     const double middle = 0.5 * (before + after);
     (rampUp(low, high, duration, shape, middle).way < way ? before : after) = middle;
   }
@@ -158,10 +158,11 @@ uint32_t reachOf(const ModulatedMove &move, uint32_t first, uint32_t last, doubl
   for (uint32_t i = first; i < last; ++i) {
     way += move.leg[i].way;
     const double left = whole - way;
-    if (way < rising && rampSpeedAt(enter, peak, up, shape, way) > kSlack * move.leg[i].limit)
+    const double before = kSlack * move.leg[i].limit;
+    const double after = kSlack * move.leg[i + 1].limit;
+    if (way < rising && before < peak && rampSpeedAt(enter, peak, up, shape, way) > before)
       return i;
-    if (left < falling &&
-        rampSpeedAt(leave, peak, down, shape, left) > kSlack * move.leg[i + 1].limit)
+    if (left < falling && after < peak && rampSpeedAt(leave, peak, down, shape, left) > after)
       return i;
   }
   return last;
@@ -187,25 +188,51 @@ Run runFrom(const ModulatedMove &move, uint32_t first, uint32_t last) noexcept {
   return run;
 }
 
+/// Work that may still be done.
+class Budget {
+public:
+  explicit Budget(uint32_t steps) noexcept : steps_(steps) {}
+  /// False: nothing is left.
+  bool take(uint32_t steps) noexcept {
+    const bool enough = steps < steps_;
+    steps_ = enough ? steps_ - steps : 0;
+    return enough;
+  }
+
+private:
+  uint32_t steps_;
+};
+
+/// The longest run of legs from one on that may become one.
+Run mergedFrom(const ModulatedMove &move, uint32_t first, Budget &budget) noexcept {
+  constexpr uint32_t kLookUps = 12; // a speed on a ramp takes as long as so many legs
+  const Run alone{first, move.leg[first].limit};
+  if (!budget.take(1))
+    return alone;
+  Run run = runFrom(move, first, move.legs - 1);
+  while (run.last > first) {
+    const uint32_t reach = reachOf(move, first, run.last, run.peak);
+    const bool enough = budget.take(run.last - first + kLookUps * (reach - first + 1));
+    if (reach == run.last)
+      return run;
+    if (!enough)
+      break;
+    run = runFrom(move, first, reach);
+  }
+  return alone;
+}
+
 /// Shaped ramps lead over several legs: these become one. It takes a bounded time, as it is done in
 /// one cycle: when too much has been tried, legs stay what they are.
 void mergeLegs(ModulatedMove &move) noexcept {
   uint32_t made = 0;
-  uint32_t budget = 4 * move.legs;
+  Budget budget(32 * move.legs);
   for (uint32_t first = 0; first < move.legs;) {
-    Run run = runFrom(move, first, move.legs - 1);
-    while (run.last > first) {
-      const uint32_t tried = run.last - first;
-      const uint32_t reach = tried > budget ? first : reachOf(move, first, run.last, run.peak);
-      budget -= tried < budget ? tried : budget;
-      if (reach == run.last)
-        break;
-      run = runFrom(move, first, reach);
-    }
+    const Run run = mergedFrom(move, first, budget);
     Leg leg = move.leg[first];
     for (uint32_t i = first + 1; i <= run.last; ++i)
       leg.way += move.leg[i].way;
-    leg.limit = first == run.last ? leg.limit : run.peak;
+    leg.limit = run.peak;
     move.leg[made++] = leg;
     first = run.last + 1;
   }
