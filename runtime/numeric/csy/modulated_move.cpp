@@ -125,7 +125,7 @@ void meetLegs(ModulatedMove &move) noexcept {
 double rampSpeedAt(double low, double high, double duration, double shape, double way) noexcept {
   double before = 0.0;
   double after = duration;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 32; ++i) {
     const double middle = 0.5 * (before + after);
     (rampUp(low, high, duration, shape, middle).way < way ? before : after) = middle;
   }
@@ -141,8 +141,8 @@ bool goesOn(const Course &leg, const Course &next) noexcept {
          (leg.down > kNothing * leg.steady && fallsFromItsBegin);
 }
 
-/// Whether legs may become one: its ramps are nowhere faster than what is allowed there.
-bool mayMerge(const ModulatedMove &move, uint32_t first, uint32_t last, double peak) noexcept {
+/// Up to which leg a ramp may lead: `last`, or the first one after which it would be too fast.
+uint32_t reachOf(const ModulatedMove &move, uint32_t first, uint32_t last, double peak) noexcept {
   double whole = 0.0;
   for (uint32_t i = first; i <= last; ++i)
     whole += move.leg[i].way;
@@ -153,43 +153,88 @@ bool mayMerge(const ModulatedMove &move, uint32_t first, uint32_t last, double p
   const double rising = 0.5 * (enter + peak) * up;
   const double falling = 0.5 * (leave + peak) * down;
   const double shape = move.limits.shape;
+  constexpr double kSlack = 1.0 + 1e-9;
   double way = 0.0;
   for (uint32_t i = first; i < last; ++i) {
     way += move.leg[i].way;
     const double left = whole - way;
-    const double slack = 1.0 + 1e-9;
-    if (way < rising && rampSpeedAt(enter, peak, up, shape, way) > slack * move.leg[i].limit)
-      return false;
-    if (left < falling &&
-        rampSpeedAt(leave, peak, down, shape, left) > slack * move.leg[i + 1].limit)
-      return false;
+    const double before = kSlack * move.leg[i].limit;
+    const double after = kSlack * move.leg[i + 1].limit;
+    if (way < rising && before < peak && rampSpeedAt(enter, peak, up, shape, way) > before)
+      return i;
+    if (left < falling && after < peak && rampSpeedAt(leave, peak, down, shape, left) > after)
+      return i;
   }
-  return true;
+  return last;
 }
 
-/// Shaped ramps lead over several legs: these become one, from the first on.
+/// The last leg of a run of legs whose ramps go on from one to the next, and the greatest speed.
+struct Run {
+  uint32_t last;
+  double peak;
+};
+
+Run runFrom(const ModulatedMove &move, uint32_t first, uint32_t last) noexcept {
+  Course course = courseOf(move, first);
+  Run run{first, course.peak};
+  while (run.last < last) {
+    const Course next = courseOf(move, run.last + 1);
+    if (!goesOn(course, next))
+      break;
+    course = next;
+    run.peak = larger(run.peak, next.peak);
+    ++run.last;
+  }
+  return run;
+}
+
+/// Work that may still be done.
+class Budget {
+public:
+  explicit Budget(uint32_t steps) noexcept : steps_(steps) {}
+  /// False: nothing is left.
+  bool take(uint32_t steps) noexcept {
+    const bool enough = steps < steps_;
+    steps_ = enough ? steps_ - steps : 0;
+    return enough;
+  }
+
+private:
+  uint32_t steps_;
+};
+
+/// The longest run of legs from one on that may become one.
+Run mergedFrom(const ModulatedMove &move, uint32_t first, Budget &budget) noexcept {
+  constexpr uint32_t kLookUps = 12; // a speed on a ramp takes as long as so many legs
+  const Run alone{first, move.leg[first].limit};
+  if (!budget.take(1))
+    return alone;
+  Run run = runFrom(move, first, move.legs - 1);
+  while (run.last > first) {
+    const uint32_t reach = reachOf(move, first, run.last, run.peak);
+    const bool enough = budget.take(run.last - first + kLookUps * (reach - first + 1));
+    if (reach == run.last)
+      return run;
+    if (!enough)
+      break;
+    run = runFrom(move, first, reach);
+  }
+  return alone;
+}
+
+/// Shaped ramps lead over several legs: these become one. It takes a bounded time, as it is done in
+/// one cycle: when too much has been tried, legs stay what they are.
 void mergeLegs(ModulatedMove &move) noexcept {
   uint32_t made = 0;
+  Budget budget(32 * move.legs);
   for (uint32_t first = 0; first < move.legs;) {
-    uint32_t last = first;
-    Course course = courseOf(move, first);
-    double peak = course.peak;
-    while (last + 1 < move.legs) {
-      const Course next = courseOf(move, last + 1);
-      if (!goesOn(course, next))
-        break;
-      peak = larger(peak, next.peak);
-      course = next;
-      ++last;
-    }
-    if (!mayMerge(move, first, last, peak))
-      last = first;
+    const Run run = mergedFrom(move, first, budget);
     Leg leg = move.leg[first];
-    for (uint32_t i = first + 1; i <= last; ++i)
+    for (uint32_t i = first + 1; i <= run.last; ++i)
       leg.way += move.leg[i].way;
-    leg.limit = first == last ? leg.limit : peak;
+    leg.limit = run.peak;
     move.leg[made++] = leg;
-    first = last + 1;
+    first = run.last + 1;
   }
   move.legs = made;
 }
