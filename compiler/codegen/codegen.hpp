@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stc {
@@ -97,6 +98,10 @@ struct AppConfig {
   bool filesAnywhere = false; ///< [files] anywhere
   uint32_t filesDelay = 1;    ///< [files] delay
 };
+
+/// Defined where the source `path` stands in the same translation unit: its body to be inlined is
+/// not wanted a second time then.
+[[nodiscard]] std::string besideMacro(std::string_view path);
 
 /// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything
 /// declared in it;

@@ -8,6 +8,8 @@
 #include "compiler/codegen/statements/statements.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
+#include <cctype>
+
 namespace stc::codegen {
 
 using namespace ast;
@@ -347,8 +349,8 @@ GeneratedFile GeneratedSource::inlined(const PouSymbol *own) const {
   Writer file(run.program.sources);
   lines(file, banner(std::string(own->name.text) + ", to be inlined") +
                   "#pragma once\n#include \"" + std::string(run.names.header(own)) +
-                  "\"\n#ifdef __OPTIMIZE__\n" + cx_.includes.text(own, false) +
-                  std::string(sourcePrelude()) + openSpace(run));
+                  "\"\n#if defined(__OPTIMIZE__) && !defined(" + besideMacro(path_) + ")\n" +
+                  cx_.includes.text(own, false) + std::string(sourcePrelude()) + openSpace(run));
   for (const Piece &piece : pieces_) {
     if (!piece.isBody)
       continue;
@@ -383,3 +385,14 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
 }
 
 } // namespace stc::codegen
+
+namespace stc {
+
+std::string besideMacro(std::string_view path) {
+  std::string name = "STRIDE_BESIDE_";
+  for (const char c : path.substr(0, path.rfind('.')))
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+}
+
+} // namespace stc
