@@ -99,8 +99,8 @@ struct AppConfig {
   uint32_t filesDelay = 1;    ///< [files] delay
 };
 
-/// Defined where the source `path` stands in the same translation unit: its body to be inlined is
-/// not wanted a second time then.
+/// Defined where the source `path` and sources that may call it are one translation unit: its small
+/// body is inlined from there, and `.inline.h` does not give it a second time.
 [[nodiscard]] std::string besideMacro(std::string_view path);
 
 /// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything

@@ -1,6 +1,7 @@
 #include "compiler/codegen/generated_source.hpp"
 
 #include "compiler/codegen/calls/signatures.hpp"
+#include "compiler/codegen/cpp/inlining.hpp"
 #include "compiler/codegen/initial/initializer_tables.hpp"
 #include "compiler/codegen/initial/initializers.hpp"
 #include "compiler/codegen/initial/lifecycle.hpp"
@@ -374,8 +375,13 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
   head += cx_.includes.text(own, true, single ? nullptr : run.own);
   head += sourcePrelude();
   lines(file, head + openSpace(run));
+  const bool isHinted = single && own != nullptr && own->kind == SymbolKind::Pou &&
+                        isInlinable(static_cast<const PouSymbol *>(own));
   for (const Piece &piece : pieces_) {
     file.blank();
+    if (isHinted && piece.isBody)
+      lines(file, "#if defined(__OPTIMIZE__) && defined(" + besideMacro(path_) +
+                      ")\n__attribute__((used)) inline // callers are beside it\n#endif\n");
     file.append(piece.text);
     file.fromGenerated(path_);
   }
