@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stc {
@@ -97,6 +98,10 @@ struct AppConfig {
   bool filesAnywhere = false; ///< [files] anywhere
   uint32_t filesDelay = 1;    ///< [files] delay
 };
+
+/// Defined where the source `path` and sources that may call it are one translation unit: its small
+/// body is inlined from there, and `.inline.h` does not give it a second time.
+[[nodiscard]] std::string besideMacro(std::string_view path);
 
 /// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything
 /// declared in it;

@@ -1,12 +1,15 @@
 #include "compiler/codegen/generated_source.hpp"
 
 #include "compiler/codegen/calls/signatures.hpp"
+#include "compiler/codegen/cpp/inlining.hpp"
 #include "compiler/codegen/initial/initializer_tables.hpp"
 #include "compiler/codegen/initial/initializers.hpp"
 #include "compiler/codegen/initial/lifecycle.hpp"
 #include "compiler/codegen/places/located.hpp"
 #include "compiler/codegen/statements/statements.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+
+#include <cctype>
 
 namespace stc::codegen {
 
@@ -347,8 +350,8 @@ GeneratedFile GeneratedSource::inlined(const PouSymbol *own) const {
   Writer file(run.program.sources);
   lines(file, banner(std::string(own->name.text) + ", to be inlined") +
                   "#pragma once\n#include \"" + std::string(run.names.header(own)) +
-                  "\"\n#ifdef __OPTIMIZE__\n" + cx_.includes.text(own, false) +
-                  std::string(sourcePrelude()) + openSpace(run));
+                  "\"\n#if defined(__OPTIMIZE__) && !defined(" + besideMacro(path_) + ")\n" +
+                  cx_.includes.text(own, false) + std::string(sourcePrelude()) + openSpace(run));
   for (const Piece &piece : pieces_) {
     if (!piece.isBody)
       continue;
@@ -372,8 +375,13 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
   head += cx_.includes.text(own, true, single ? nullptr : run.own);
   head += sourcePrelude();
   lines(file, head + openSpace(run));
+  const bool isHinted = single && own != nullptr && own->kind == SymbolKind::Pou &&
+                        isInlinable(static_cast<const PouSymbol *>(own));
   for (const Piece &piece : pieces_) {
     file.blank();
+    if (isHinted && piece.isBody)
+      lines(file, "#if defined(__OPTIMIZE__) && defined(" + besideMacro(path_) +
+                      ")\n__attribute__((used)) inline // callers are beside it\n#endif\n");
     file.append(piece.text);
     file.fromGenerated(path_);
   }
@@ -383,3 +391,14 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
 }
 
 } // namespace stc::codegen
+
+namespace stc {
+
+std::string besideMacro(std::string_view path) {
+  std::string name = "STRIDE_BESIDE_";
+  for (const char c : path.substr(0, path.rfind('.')))
+    name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+}
+
+} // namespace stc

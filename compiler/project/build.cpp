@@ -5,6 +5,7 @@
 #include "compiler/project/made_files.hpp"
 #include "compiler/project/output_folder.hpp"
 #include "compiler/project/toolchain.hpp"
+#include "compiler/project/translation_units.hpp"
 #include "compiler/project/user_cache.hpp"
 #include "compiler/source/content_hash.hpp"
 
@@ -39,9 +40,10 @@ std::vector<std::string> compileFlags(const Installation &installation, bool deb
     flags.insert(flags.end(), {"-O0", "-g"});
   else
     // Aligned, so that the speed of a loop does not depend on what lies before it; with line
-    // tables and all frames, so that an exception can say where it came from.
-    flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls", "-falign-functions=64",
-                               "-falign-loops=32"});
+    // tables and all frames, so that an exception can say where it came from; a part of a function
+    // that is inlined into the rest of it would look like a recursion there.
+    flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls", "-fno-partial-inlining",
+                               "-falign-functions=64", "-falign-loops=32"});
   // The installation has the last word: one with sanitizers does not optimise.
   flags.insert(flags.end(), installation.compileFlags.begin(), installation.compileFlags.end());
   return flags;
@@ -82,6 +84,7 @@ public:
       return emit();
     if (!findToolchain() || !openCache())
       return std::nullopt;
+    units_ = divideIntoUnits(files_);
     for (const GeneratedFile &file : files_)
       byPath_.emplace(file.path, &file);
     base_ = identityOf(toolchain_, *cache_, work_->path());
@@ -90,7 +93,7 @@ public:
 
 private:
   struct Unit {
-    const GeneratedFile *file;
+    const TranslationUnit *source;
     std::string key;
     fs::path object; ///< in the work folder
   };
@@ -228,9 +231,9 @@ private:
 
   std::vector<Unit> units() const {
     std::vector<Unit> units;
-    for (const GeneratedFile &file : files_)
-      if (file.path.ends_with(".cpp"))
-        units.push_back({&file, keyOf(file), work_->path() / fmt::format("{}.o", units.size())});
+    for (const TranslationUnit &unit : units_)
+      units.push_back({&unit, keyOf(*byPath_.at(unit.path)),
+                       work_->path() / fmt::format("{}.o", units.size())});
     return units;
   }
 
@@ -304,7 +307,7 @@ private:
     command.insert(command.end(),
                    {fmt::format("-ffile-prefix-map={}=.", sources_.string()),
                     fmt::format("-ffile-prefix-map={}={}", include, kHeadersInLineTables), "-I",
-                    sources_.string(), "-I", include, "-c", (sources_ / unit.file->path).string(),
+                    sources_.string(), "-I", include, "-c", (sources_ / unit.source->path).string(),
                     "-o", unit.object.string()});
     return command;
   }
@@ -312,8 +315,8 @@ private:
   bool compile(const std::vector<Unit> &units) {
     std::vector<Job> jobs;
     for (const Unit &unit : units)
-      jobs.push_back({compileCommand(unit), fs::path(unit.file->path).stem().string(),
-                      sources_.string(), work_->path().string()});
+      jobs.push_back(
+          {compileCommand(unit), unit.source->title, sources_.string(), work_->path().string()});
     const std::vector<JobResult> results = runJobs(
         jobs, [&](size_t job) { progress("compiling " + jobs[job].title, job, jobs.size() + 1); });
     bool good = true;
@@ -464,6 +467,7 @@ private:
   fs::path sources_;
   ContentHash base_; ///< the tool chain's
   std::vector<GeneratedFile> files_;
+  std::vector<TranslationUnit> units_;
   std::unordered_map<std::string, const GeneratedFile *> byPath_;
 };
 

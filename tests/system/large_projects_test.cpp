@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stride::test {
@@ -102,6 +104,46 @@ TEST_F(LargeProject, AFileHasALimitedNumberOfWords) {
     EXPECT_EQ(stride({"fmt", "--check", "a.st"}).err.find("SE0119") != std::string::npos,
               count > limit);
   }
+}
+
+/// Compiled units in the cache.
+size_t unitsIn(const std::filesystem::path &cache) {
+  size_t count = 0;
+  for (const auto &entry : std::filesystem::recursive_directory_iterator(cache))
+    count += entry.path().extension() == ".o" ? 1 : 0;
+  return count;
+}
+
+// Small POUs are compiled together; what an edit leaves alone is not compiled again.
+TEST_F(LargeProject, AnEditCompilesTheUnitThatItIsIn) {
+  const ProcessResult generated = runProcess(
+      {"python3", STRIDE_SOURCE_DIR "/tests/bench/frontend/generate_project.py", "2500", "."},
+      scratch_.path());
+  ASSERT_EQ(generated.exitCode, 0) << generated.err;
+  auto compiled = [&, before = size_t{0}]() mutable {
+    const ProcessResult result =
+        stride({"sim", ".", "--debug", "--for", "T#30ms", "--quiet", "--print", "Main.station7"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    const size_t all = unitsIn(scratch_.path() / "cache");
+    return all - std::exchange(before, all);
+  };
+  // 19 stations of more than 6 KB each, the program that calls them, and the application.
+  const size_t all = compiled();
+  EXPECT_GE(all, 7U);
+  EXPECT_LE(all, 16U);
+  const std::filesystem::path file = scratch_.path() / "Station7.st";
+  const std::string text = readFile(file);
+  const size_t at = text.find("iCount := 0;");
+  ASSERT_NE(at, std::string::npos);
+  writeFile(file, text.substr(0, at) + "iCount := 1;" + text.substr(at + 12));
+  EXPECT_EQ(compiled(), 2U); // its unit, and the hashes of the sources
+  writeFile(scratch_.path() / "Extra.st", "FUNCTION Extra : INT\nExtra := 7;\nEND_FUNCTION\n");
+  const size_t added = compiled(); // what it is in; two where that is too much then
+  EXPECT_GE(added, 2U);
+  EXPECT_LE(added, 3U);
+  writeFile(file, text);
+  std::filesystem::remove(scratch_.path() / "Extra.st");
+  EXPECT_EQ(compiled(), 0U); // all of that is known
 }
 
 // Looking for what was meant would take longer than everything else.
