@@ -103,6 +103,7 @@ function(stride_executable name)
 endfunction()
 
 # stride_test(<name> [STARTS_PROGRAMS] SOURCES <file>... [DEPS <target>...] [SHARDS <n>] [LABELS <l>...])
+# LABELS turns: it takes long, and CI runs it in turns with others (`./dev test --turn`).
 # STARTS_PROGRAMS: it starts what the target stride_programs consists of, which is built with it. One GoogleTest executable, registered with ctest as one test (or as n shards of it, which run in
 # parallel). Tests find the repository and the built `stride` through the macros STRIDE_SOURCE_DIR and
 # STRIDE_BINARY_DIR.
@@ -176,7 +177,8 @@ function(stride_property_test name)
 endfunction()
 
 # stride_benchmark(<name> SOURCES <file>... [DEPS <target>...])
-# A Google Benchmark executable in <build>/bench; `./dev bench` runs all of them.
+# A Google Benchmark executable in <build>/bench; `./dev bench` runs all of them. Where STRIDE_BENCHMARKS is off, it is
+# built only when it is asked for.
 function(stride_benchmark name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
   find_package(benchmark REQUIRED)
@@ -185,6 +187,9 @@ function(stride_benchmark name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
   target_compile_definitions(${name} PRIVATE
     STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" STRIDE_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  if(NOT STRIDE_BENCHMARKS)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
   target_link_libraries(${name} PRIVATE ${arg_DEPS} benchmark::benchmark benchmark::benchmark_main)
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF) # a file's helpers are its own
 endfunction()

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
 """Chooses a part of a build's tests: every N-th, and those of what was changed last.
 
-usage: part.py BUILD K/N [--changed COMMIT]
+usage: part.py BUILD K/N|none [--changed COMMIT [--most N]]
+       part.py BUILD K/N --turns [--changed COMMIT]
 
 The tests of a build are dealt to N parts: executables by the number of their sources, so that the parts take the same
-time, other tests by a hash of their names. Prints the targets that part K (0 ..) needs, one a line, and writes BUILD/part.txt, which
+time, other tests by a hash of their names. `none` is no part, for what --changed adds alone. Prints the targets that part K (0 ..) needs, one a line, and writes BUILD/part.txt, which
 `ctest -I` reads. With --changed there are also, from whatever part: the executables whose own sources differ from
-COMMIT, and for each library with such sources the smallest executable that links it.
+COMMIT, and for each library with such sources the smallest executable that links it; with --most no more of them than
+that, the last changed first.
+With --turns it is all tests, only that those with the label `turns` are dealt to N parts, without those whose executable or golden
+program differs from COMMIT: they are in every part.
 """
 import argparse
 import json
@@ -56,19 +60,40 @@ def folder_of(name):
     return str(pathlib.PurePosixPath(name).parent)
 
 
-def changed_last(build, commit, executables, sources):
-    """Executables of changed sources, and the smallest one of each library with changed sources."""
-    changed = names_since(commit)
-    headers = {folder_of(name) for name in changed if name.endswith((".hpp", ".h", ".def"))}
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
+
+
+def includes_changed(name, headers, seen):
+    """Whether a source includes one of the headers, itself or by headers of the same folder."""
+    seen.add(name)
+    path = pathlib.Path(ROOT) / name
+    included = set(INCLUDE.findall(path.read_text(encoding="utf-8"))) if path.exists() else set()
+    near = {header for header in included - seen if folder_of(header) == folder_of(name)}
+    return bool(included & headers) or any(includes_changed(header, headers, seen) for header in sorted(near))
+
+
+def touched_by(name, sources, executables):
+    """The targets that a changed file belongs to: its own, or a header's, if their sources lie in its folder and, in executables, include it."""
+    if not name.endswith((".hpp", ".h", ".def")):
+        return {target for target, own in sources.items() if name in own}
+    return {target for target, own in sources.items()
+            if any(folder_of(source) == folder_of(name)
+                   and (target not in executables or includes_changed(source, {name}, set())) for source in own)}
+
+
+def changed_last(build, commit, executables, sources, most):
+    """Executables of changed sources, and the smallest one of each library with changed sources; what was changed last first,
+    no more than so many."""
     links = archives(build)
-    touched = {name for name, own in sources.items()
-               if own.intersection(changed) or headers.intersection(map(folder_of, own))}
-    chosen = touched & executables
-    for library in sorted(touched - executables):
-        linking = [name for name in executables if library in links.get(name, ())]
-        if linking and not chosen.intersection(linking):
-            chosen.add(min(linking, key=lambda name: (len(links[name]), len(sources.get(name, ())), name)))
-    return chosen
+    chosen = {}
+    for name in names_since(commit):
+        for target in sorted(touched_by(name, sources, executables)):
+            linking = [each for each in executables if target in links.get(each, ())]
+            if target in executables:
+                chosen[target] = None
+            elif linking and not chosen.keys() & set(linking):
+                chosen[min(linking, key=lambda each: (len(links[each]), len(sources.get(each, ())), each))] = None
+    return set(list(chosen)[:most])
 
 
 def deal(executables, sources, parts):
@@ -78,27 +103,55 @@ def deal(executables, sources, parts):
     return {name: turn[place % len(turn)] for place, name in enumerate(order)}
 
 
+def in_turns(build, part, parts, commit):
+    """All tests, of those with the label `turns` one part and what was changed."""
+    listing = json.loads(subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True,
+                                        text=True, check=True).stdout)
+    labelled = {test["name"] for test in listing["tests"] for each in test.get("properties", ())
+                if each["name"] == "LABELS" and "turns" in each["value"]}
+    all_tests, sources = tests(build), own_sources(build)
+    executables = {target for _, _, target in all_tests if target}
+    names = names_since(commit) if commit else []
+    changed = {pathlib.PurePosixPath(name).parts[3].removesuffix(".st") for name in names
+               if name.startswith(("tests/golden/programs/", "tests/golden/projects/"))}
+    touched = set().union(*(touched_by(name, sources, executables) for name in names)) if names else set()
+    return [(number, name, target) for number, name, target in all_tests
+            if name not in labelled or zlib.crc32(name.encode()) % parts == part or target in touched
+            or name.startswith("golden.") and name.rpartition(".")[2] in changed], len(all_tests)
+
+
+def write_part(build, chosen):
+    """Writes what `ctest -I` reads: beginning, end and step of a range, which is nothing here, then the numbers."""
+    (build / "part.txt").write_text(",".join(["0", "0", "0", *(str(number) for number, _, _ in chosen)]) + "\n",
+                                    encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("part", type=lambda text: tuple(map(int, text.split("/"))))
+    parser.add_argument("part", type=lambda text: (-1, 1) if text == "none" else tuple(map(int, text.split("/"))))
     parser.add_argument("--changed")
+    parser.add_argument("--most", type=int)
+    parser.add_argument("--turns", action="store_true")
     options = parser.parse_args()
     part, parts = options.part
-    if not 0 <= part < parts:
+    if options.part != (-1, 1) and not 0 <= part < parts:
         parser.error(f"there are the parts 0/{parts} to {parts - 1}/{parts}")
+    if options.turns:
+        chosen, count = in_turns(options.build, part, parts, options.changed)
+        write_part(options.build, chosen)
+        print(f"{len(chosen)} of {count} tests", file=sys.stderr)
+        return 0
     all_tests = tests(options.build)
     executables = {target for _, _, target in all_tests if target}
     sources = own_sources(options.build)
-    lately = changed_last(options.build, options.changed, executables, sources) if options.changed else set()
+    lately = changed_last(options.build, options.changed, executables, sources, options.most) if options.changed else set()
     dealt = deal(executables, sources, parts)
     chosen = [(number, name, target) for number, name, target in all_tests
               if target in lately or (dealt[target] if target else zlib.crc32(name.encode()) % parts) == part]
     if not chosen:
         sys.exit("part.py: there are no tests in this part")
-    # Beginning, end and step of a range, which is nothing here, then the numbers.
-    (options.build / "part.txt").write_text(",".join(["0", "0", "0", *(str(number) for number, _, _ in chosen)]) + "\n",
-                                            encoding="utf-8")
+    write_part(options.build, chosen)
     targets = {target for _, _, target in chosen if target}
     if any(target is None for _, _, target in chosen):
         targets.update(GOLDEN)

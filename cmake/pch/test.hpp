@@ -2,7 +2,7 @@
 #include "library.hpp"
 
 #include <fstream>
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 #include <random>
 #include <sstream>

@@ -2,7 +2,7 @@
 // include whom, what a folder's library consists of, where native bodies are.
 #include "tests/support/text.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

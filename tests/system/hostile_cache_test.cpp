@@ -1,7 +1,7 @@
 // The cache of compiled code, where others may write: docs/security.md.
 #include "tests/system/hostile_project.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <sys/stat.h>

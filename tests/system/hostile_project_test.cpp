@@ -1,7 +1,7 @@
 // Projects that somebody gave away to do harm, and folders that others may write: docs/security.md.
 #include "tests/system/hostile_project.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stride::test {

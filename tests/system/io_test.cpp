@@ -3,7 +3,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/text.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -2,7 +2,7 @@
 // first one runs some cycles, its state is carried over, the second one goes on.
 #include "live_application.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 
 namespace stride::test {
 namespace {

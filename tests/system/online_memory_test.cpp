@@ -1,7 +1,7 @@
 // Online change of unions, objects of __NEW, byte pointers and the process image.
 #include "live_application.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 
 namespace stride::test {
 namespace {

@@ -4,7 +4,7 @@
 #include "drivers/dummy/dummy_drive.hpp"
 #include "runtime/bus/drive_group.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 #include <bit>
 #include <fstream>

@@ -1,7 +1,7 @@
 // Online change of programs with methods, interfaces and inheritance.
 #include "live_application.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 
 namespace stride::test {
 namespace {

@@ -1,7 +1,7 @@
 // Online changes of groups with a planning task while they move.
 #include "tests/system/run_scene.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

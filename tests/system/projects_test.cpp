@@ -1,7 +1,7 @@
 // New projects, saving a file while something watches, pictures that know their project.
 #include "tests/system/run_scene.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 namespace stride::test {
 namespace {

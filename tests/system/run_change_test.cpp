@@ -2,7 +2,7 @@
 #include "tests/system/run_scene.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "tests/support/text.hpp"
 #include "tests/system/files/file_program.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <elf.h>

@@ -2,7 +2,7 @@
 // an address, faults that name what explains them.
 #include "tests/system/run_scene.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 namespace stride::test {
 namespace {

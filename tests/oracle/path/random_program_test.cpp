@@ -1,7 +1,7 @@
 // That random programs are what they say: without gaps, with true arcs, and with all that is hard.
 #include "tests/oracle/path/random_program.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A run in which allocations fail: it ends with a message before anything moves, or goes on.
 #include "moving.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "tests/support/fault_injection.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "runtime/app/carry_over.hpp"
 #include "runtime/app/validate.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <bit>

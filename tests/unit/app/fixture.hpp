@@ -8,7 +8,7 @@
 #include "runtime/app/symbols.hpp"
 #include "runtime/app/value_text.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <string>

@@ -3,7 +3,7 @@
 #include "runtime/numeric/cam/extremes.hpp"
 #include "runtime/numeric/cam/piece_search.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Start, cycle, configuration and end of the driver.
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stride::can {

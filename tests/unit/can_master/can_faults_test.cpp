@@ -1,7 +1,7 @@
 // Each fault of the bus and of a node, and what the axes are told.
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stride::can {

@@ -1,7 +1,7 @@
 // Nodes that give SYNC, and how the task waits for it.
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stride::can {

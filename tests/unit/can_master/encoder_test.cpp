@@ -1,7 +1,7 @@
 // Encoders of a drive group: nodes of CiA 406, and second encoders of drives.
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 namespace stride::can {
 namespace {

@@ -1,7 +1,7 @@
 // The list of errors of a node (1003h): when it is read, and what is said of it.
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stride::can {

@@ -2,7 +2,7 @@
 #include "drivers/can/io_schema.hpp"
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 
 namespace stride::can {
 namespace {

@@ -1,7 +1,7 @@
 // Nodes that get their numbers by LSS before they start up, frame by frame.
 #include "tests/unit/can_master/lss_start_fixture.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stride::can {

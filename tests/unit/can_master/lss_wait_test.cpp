@@ -1,7 +1,7 @@
 // Nodes that do not answer by LSS at first, as they are still booting (lss_wait).
 #include "tests/unit/can_master/lss_start_fixture.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 namespace stride::can {
 namespace {

@@ -1,7 +1,7 @@
 // Cycles that wait for what drives say at their SYNC (read_wait).
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 namespace stride::can {
 namespace {

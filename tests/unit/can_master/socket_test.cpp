@@ -5,7 +5,7 @@
 #include "drivers/can/socket/can_link.hpp"
 #include "drivers/can/socket/socket_can_port.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <linux/can/netlink.h>

@@ -2,7 +2,7 @@
 #include "drivers/can/master/master.hpp"
 #include "tests/unit/can_master/fake_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stride::can {

@@ -1,7 +1,7 @@
 // The time of day on the bus (100h).
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 
 namespace stride::can {
 namespace {

@@ -2,7 +2,7 @@
 #include "drivers/can/plan/bus_load.hpp"
 #include "drivers/can/plan/pdo_plan.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <random>

@@ -5,7 +5,7 @@
 #include "drivers/can/plan/parameter_file.hpp"
 #include "drivers/can/schema.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <string>

@@ -3,7 +3,7 @@
 
 #include "drivers/can/simulation/wire.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

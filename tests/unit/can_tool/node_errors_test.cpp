@@ -1,7 +1,7 @@
 // What `stride can scan` shows of the errors of a node.
 #include "drivers/can/tool/node_errors.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,6 +1,6 @@
 #include "compiler/plot/plot.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <limits>

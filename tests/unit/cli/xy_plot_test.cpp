@@ -1,7 +1,7 @@
 // Columns of a trace against each other.
 #include "compiler/plot/xy_plot.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

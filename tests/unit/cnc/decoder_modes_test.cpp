@@ -4,7 +4,7 @@
 #include "runtime/numeric/cnc/decoder_internal.hpp"
 
 #include <cmath>
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 using namespace stride::cnc;

@@ -1,7 +1,7 @@
 // Words of texts.
 #include "tests/unit/cnc/gcode_text.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 using namespace stride::cnc;

@@ -2,7 +2,7 @@
 
 #include "program.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc::test {

@@ -3,7 +3,7 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/syntax/parser.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "compiler/assets/eds/ini.hpp"
 #include "compiler/assets/eds/values.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <string>

@@ -2,7 +2,7 @@
 #include "compiler/assets/eds/device.hpp"
 #include "compiler/assets/eds/xml.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc::eds {

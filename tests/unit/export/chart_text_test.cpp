@@ -1,7 +1,7 @@
 // Textual charts in their parts.
 #include "compiler/export/chart_text.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc::exporting {

@@ -1,7 +1,7 @@
 #include "runtime/host/messages.hpp"
 #include "runtime/task/cycle_log.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <array>

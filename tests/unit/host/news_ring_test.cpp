@@ -1,6 +1,6 @@
 #include "runtime/host/news_ring.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <string>

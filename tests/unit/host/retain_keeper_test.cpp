@@ -6,7 +6,7 @@
 #include "tests/support/text.hpp"
 #include "tests/unit/app/app_model.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <atomic>

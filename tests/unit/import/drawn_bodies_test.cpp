@@ -2,7 +2,7 @@
 #include "compiler/import/drawn_bodies.hpp"
 #include "compiler/import/exp_reader.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <array>

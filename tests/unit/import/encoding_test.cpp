@@ -1,7 +1,7 @@
 // From bytes to UTF-8.
 #include "compiler/import/encoding.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <string>

@@ -2,7 +2,7 @@
 #include "compiler/import/finish.hpp"
 #include "compiler/source/st_scan.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>

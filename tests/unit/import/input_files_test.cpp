@@ -1,7 +1,7 @@
 // From files and folders to a model.
 #include "compiler/import/input_files.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>

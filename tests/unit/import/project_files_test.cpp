@@ -2,7 +2,7 @@
 #include "compiler/import/project_files.hpp"
 #include "compiler/import/report.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <string>

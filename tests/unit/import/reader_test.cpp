@@ -1,7 +1,7 @@
 // Which reader reads which file.
 #include "compiler/import/reader.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <string>

@@ -18,7 +18,7 @@
 #include "st/SM_PLCopen/MC_TV_REF.h"
 #include "st/SM_PLCopen/MC_VelocityProfile.h"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <functional>

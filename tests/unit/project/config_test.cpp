@@ -3,7 +3,7 @@
 #include "compiler/source/render.hpp"
 #include "compiler/syntax/parser.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc {

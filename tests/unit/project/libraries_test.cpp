@@ -4,7 +4,7 @@
 #include "compiler/project/project.hpp"
 #include "tests/support/text.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,7 +1,7 @@
 #include "compiler/project/library_index.hpp"
 
 #include <algorithm>
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc {

@@ -3,7 +3,7 @@
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/library_index.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 #include <memory>
 #include <set>

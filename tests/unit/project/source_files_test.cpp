@@ -2,7 +2,7 @@
 #include "compiler/project/source_files.hpp"
 #include "tests/support/text.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

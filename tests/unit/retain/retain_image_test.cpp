@@ -5,7 +5,7 @@
 #include "runtime/app/retain_image.hpp"
 #include "runtime/app/validate.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <cstring>

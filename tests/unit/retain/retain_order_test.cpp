@@ -2,7 +2,7 @@
 #include "runtime/app/retain_store.hpp"
 #include "tests/unit/retain/fake_disk.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <memory>

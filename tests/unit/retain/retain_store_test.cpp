@@ -6,7 +6,7 @@
 #include "tests/support/text.hpp"
 #include "tests/unit/retain/fake_disk.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <cerrno>

@@ -2,7 +2,7 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/source/identifier.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "compiler/syntax/parser.hpp"
 #include "tests/support/no_library.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

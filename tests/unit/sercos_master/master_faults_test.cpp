@@ -2,7 +2,7 @@
 // programs.
 #include "tests/unit/sercos_master/master_scene.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 namespace stride::sercos::test {
 namespace {

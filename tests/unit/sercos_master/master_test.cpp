@@ -1,7 +1,7 @@
 // Phases 0 to 4 and what refuses each of them.
 #include "tests/unit/sercos_master/master_scene.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 namespace stride::sercos::test {
 namespace {

@@ -1,7 +1,7 @@
 #include "drivers/sercos/plan/group_plan.hpp"
 #include "drivers/sercos/schema.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stride::sercos::test {

@@ -3,7 +3,7 @@
 #include "tests/unit/system/faulty_disk.hpp"
 #include "tests/unit/system/file_task.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <cerrno>

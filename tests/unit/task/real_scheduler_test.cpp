@@ -2,7 +2,7 @@
 #include "runtime/iec/ctx.h"
 #include "runtime/task/real_scheduler.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -2,7 +2,7 @@
 // afterwards.
 #include "runtime/task/realtime.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <pthread.h>

@@ -1,6 +1,6 @@
 #include "runtime/task/statistics.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Ladder and function block diagrams of CoDeSys V2.3.
 #include "compiler/import/networks/exp_networks.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 #include <sstream>

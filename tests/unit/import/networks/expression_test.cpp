@@ -1,7 +1,7 @@
 // Expressions with as few brackets as possible.
 #include "compiler/import/networks/expression.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc::import::networks {

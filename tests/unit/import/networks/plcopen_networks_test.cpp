@@ -2,7 +2,7 @@
 #include "compiler/import/networks/plcopen_networks.hpp"
 #include "compiler/import/networks/print.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc::import::networks {

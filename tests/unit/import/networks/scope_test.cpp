@@ -2,7 +2,7 @@
 #include "compiler/import/networks/scope.hpp"
 #include "compiler/import/networks/types.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc::import::networks {
