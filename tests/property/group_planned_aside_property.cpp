@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <vector>
 
 namespace {
 
@@ -152,6 +155,70 @@ TEST(GroupPlanning, OverridesActAsWithoutIt) {
       EXPECT_EQ(cycles[1], cycles[0]);
       EXPECT_LE(cycles[1], 1000 * keep + (override > 0 ? 35 : 1) + 1);
     }
+}
+
+/// An override that a program changes in every cycle: up and down with random slopes, at times with
+/// jumps.
+class Slider {
+public:
+  explicit Slider(unsigned seed) : random_(seed), jumps_(seed % 2 == 0) {}
+
+  double next() {
+    if (random_.chance(0.01))
+      slope_ = random_.uniform(-1.5, 1.5) * LongWay::kCycle; // the axis can follow 10 / s
+    value_ += slope_;
+    if (value_ < 0.2 || value_ > 1)
+      slope_ = -slope_;
+    if (jumps_ && random_.chance(0.002))
+      value_ = random_.uniform(0.2, 1);
+    value_ = std::clamp(value_, 0.2, 1.0);
+    return value_ + random_.uniform(-1, 1) * 1e-6; // never the same twice
+  }
+
+private:
+  Random random_;
+  bool jumps_;
+  double value_ = 1;
+  double slope_ = 0;
+};
+
+/// More cases by hand: STRIDE_GROUP_CASES=400.
+int wanted(int cases) {
+  const char *const more = std::getenv("STRIDE_GROUP_CASES");
+  return more != nullptr ? std::atoi(more) : casesOf(cases);
+}
+
+/// The velocity is one that the override has asked for within a known time before: that of two
+/// plans, each of which begins after the forecast, and of a ramp.
+TEST(GroupPlanning, FollowsAnOverrideThatChangesInEveryCycle) {
+  for (int i = 0; i < wanted(24); ++i) {
+    const bool aside = i % 3 != 0;
+    const double keep = i % 4 == 0 ? 0.1 : 0.0;
+    SCOPED_TRACE(testing::Message() << "case " << i << ", forecast " << keep);
+    const int late = static_cast<int>(2000 * keep) + 300;
+    LongWay way(50'000);
+    if (!aside)
+      way.changePlanner();
+    way.set(1, keep);
+    way.drive(2003, true);
+    Slider slider(static_cast<unsigned>(i));
+    std::vector<double> asked(static_cast<size_t>(late), 1.0);
+    constexpr double kMore = 0.005; // of all; ramps are not planned with the last bit of it
+    int outside = 0;
+    double least = 1;
+    for (int n = 0; n < 20'000; ++n) {
+      const double override = slider.next();
+      asked.push_back(override);
+      way.set(override, keep);
+      way.drive(1, true);
+      const auto window = std::minmax_element(asked.end() - late, asked.end());
+      const double now = way.speed() / LongWay::kSpeed;
+      outside += now < *window.first - kMore || now > *window.second + kMore ? 1 : 0;
+      least = std::min(least, now);
+    }
+    EXPECT_EQ(outside, 0);
+    EXPECT_LT(least, 0.6); // it is not that nothing changes
+  }
 }
 
 } // namespace

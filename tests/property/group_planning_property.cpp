@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -70,11 +71,14 @@ public:
   double slower() const { return static_cast<double>(cycles_) / static_cast<double>(taken_); }
   void disturbs(bool yes) { disturbs_ = yes; }
   void changes(bool yes) { changes_ = yes; }
+  void slides(bool yes) { slides_ = yes; }
 
 private:
   void step() {
     if (disturbs_)
       disturb();
+    if (slides_)
+      slide();
     GroupMotion &group = tasks_.group();
     const bool atOnce = stopping_ && atOnce_;
     const GroupCommand command = tasks_.command(override_, stopping_, keep_, atOnce, allowance_);
@@ -130,6 +134,20 @@ private:
       allowance_.pathAcceleration = random.uniform(0.2, 1);
       allowance_.pathJerk = random.uniform(0.2, 1);
     }
+  }
+
+  /// A program changes the override in every cycle, or in one of a few: by little, or to anything.
+  void slide() {
+    Random &random = jobs_.random();
+    if (random.chance(0.003))
+      slideEvery_ = random.chance(0.5) ? 1 : 1 + random.below(12);
+    if (random.chance(0.003))
+      leaps_ = random.chance(0.3);
+    if (cycles_ % slideEvery_ != 0)
+      return;
+    const double next =
+        leaps_ ? random.uniform(0.02, 1) : override_ * (1 + 0.05 * random.uniform(-1, 1.02));
+    override_ = std::clamp(next, 0.02, 1.0);
   }
 
   /// What has been stopped goes on in other memory, as MC_GroupContinue does.
@@ -221,6 +239,9 @@ private:
   Allowance allowance_ = kAllAllowed;
   bool disturbs_ = true;
   bool changes_ = false; ///< Who plans changes now and then.
+  bool slides_ = false;  ///< The override changes all the time.
+  bool leaps_ = false;
+  int slideEvery_ = 1; ///< In one cycle of so many.
   bool stopping_ = false;
   bool atOnce_ = false;
   int working_ = 0; ///< Cycles until the other task has answered.
@@ -238,7 +259,7 @@ int wanted(int cases) {
 }
 
 void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slower,
-             bool changes = false) {
+             bool changes = false, bool slides = false) {
   const char *const only = std::getenv("STRIDE_GROUP_CASE");
   int stops = 0;
   int followed = 0;
@@ -249,6 +270,7 @@ void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slowe
     Comparison comparison(seed + static_cast<unsigned>(i), habit);
     comparison.disturbs(disturbs);
     comparison.changes(changes);
+    comparison.slides(slides);
     if (!comparison.run())
       continue;
     ++followed;
@@ -283,6 +305,13 @@ TEST(GroupPlanning, RestsWhereNothingIsPlannedAndGoesOn) {
 TEST(GroupPlanning, GoesOnWhoeverPlansFromNowOn) {
   double slower = 0;
   compare(Habit::Late, true, 83'000, wanted(40), slower, true);
+}
+
+/// An override that changes all the time, with stops, whoever plans.
+TEST(GroupPlanning, KeepsPathAndLimitsWhileTheOverrideChanges) {
+  double slower = 0;
+  compare(Habit::Late, true, 84'000, wanted(20), slower, true, true);
+  compare(Habit::Punctual, false, 85'000, wanted(20), slower, false, true);
 }
 
 } // namespace

@@ -289,7 +289,7 @@ int wanted(int cases) {
 
 Worst driveAll(bool nonlinear, CarrierKind kind, bool steady, bool aside) {
   Worst worst;
-  for (int i = 0; i < wanted(40) && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < wanted(60) && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i);
     RideDrive drive(3000U + static_cast<unsigned>(i), nonlinear, kind, aside);
     drive.run(steady);
@@ -318,14 +318,14 @@ void expectWithinLimits(bool nonlinear, CarrierKind kind, bool aside = false) {
   EXPECT_LE(std::max(steady.step, any.step), 90000.0 * 0.002 * 0.002 * 0.002 / 6);
 }
 
-/// How a tool goes on nobody knows: what it changes comes on top, and up to 1.1 times an axis's
-/// velocity is no error.
+/// How a tool goes on nobody knows: what it changes comes on top. Getting there and leaving it is
+/// known, and takes half of what axes can do. Up to 1.1 times an axis's velocity is no error.
 void expectOnTool(bool nonlinear, bool aside = false) {
   const Worst any = driveAll(nonlinear, CarrierKind::Tool, true, aside);
-  EXPECT_LE(any.velocity, 1.1);
-  EXPECT_LE(any.acceleration, 1.15);
-  EXPECT_LE(any.jerk, 1.51);
-  EXPECT_LE(any.step, 0.001); // on the way there velocities leave out the jerk of the tool
+  EXPECT_LE(any.velocity, 1.05);
+  EXPECT_LE(any.acceleration, 1.05);
+  EXPECT_LE(any.jerk, 1.05);
+  EXPECT_LE(any.step, 90000.0 * 0.002 * 0.002 * 0.002 / 6);
 }
 
 TEST(GroupRide, PortalOnTool) { expectOnTool(false); }

@@ -159,7 +159,7 @@ void lookAtCarriers(Ctx &ctx, GroupRef &group) {
     carrier.fWay += cycle; // of a tool the time counts
     (void)lookAtMaster(ctx, group, i);
     GroupState &state = stateOf(group);
-    if (state.rides == i)
+    if (state.rides == i && state.motion.ride.follows)
       state.motion.ride.system = systemOn(group, i);
   }
 }

@@ -114,7 +114,7 @@ void writeAxes(GroupRef &group) noexcept {
 void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) {
   GroupState &state = stateOf(group);
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping || demandsStandstill(group))
-    group::brakeRide(state.motion.ride);
+    group::brake(state.motion, arm.arm);
   const double cycle = axisAt(group, 0).fTaskCycle;
   const int32_t milliseconds = millisecondsOf(cycle);
   double forecast = 0.0; // see SMC_TuneCPKernel

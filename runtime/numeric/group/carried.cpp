@@ -11,19 +11,28 @@ using exact::smaller;
 
 /// The system that was left, as it comes to rest: what is still to go until then, when it has come
 /// to a place.
-Frame<Series> stillToGo(const Ride &left, const Series &carrier) noexcept {
-  return systemAt(left.system, carrier) * seriesOf(kinematics::inverted(restOf(left)));
+Frame<Series> stillToGo(const Ride &left, const Series &follower) noexcept {
+  return copyAt(left, follower) * seriesOf(kinematics::inverted(restOf(left)));
+}
+
+/// The path's system where the one that is followed is somewhere, and the one that was left at a
+/// place.
+Frame<Series> systemWith(const GroupMotion &group, const Frame<Series> &followed,
+                         const Series &left) noexcept {
+  return isUsed(group.left) ? stillToGo(group.left, left) * followed : followed;
+}
+
+/// The system that is followed when its carrier is at a place, if it has been reached until then.
+Frame<Series> followedAt(const Ride &ride, const Series &carrier) noexcept {
+  if (!isUsed(ride))
+    return seriesOf(kinematics::unturned(Vector<double>(0.0, 0.0, 0.0)));
+  return ride.follows ? systemAt(ride.system, carrier) : copyAt(ride, carrier);
 }
 
 /// The path's system when its carrier, and that of the one that was left, are at places.
 Frame<Series> systemWith(const GroupMotion &group, const Series &carrier,
                          const Series &left) noexcept {
-  Frame<Series> system = isUsed(group.ride)
-                             ? systemAt(group.ride.system, carrier)
-                             : seriesOf(kinematics::unturned(Vector<double>(0.0, 0.0, 0.0)));
-  if (isUsed(group.left))
-    system = stillToGo(group.left, left) * system;
-  return system;
+  return systemWith(group, followedAt(group.ride, carrier), left);
 }
 
 /// Where the carrier will be, as far as that can be known: of a tool no more than where it is now.
@@ -48,6 +57,8 @@ double timeToSettle(const Ride &ride) noexcept {
     return ride.brake.duration - ride.braked;
   if (ride.inSync)
     return 0.0;
+  if (ride.system.kind == CarrierKind::Tool)
+    return larger(ride.begin.time + ride.settling - ride.follower.position, 0.0);
   const double change = fabs(ride.carrier.velocity - ride.follower.velocity);
   const double gap = fabs(ride.carrier.position - ride.follower.position);
   const motion::Dynamics &most = ride.most;
@@ -74,6 +85,21 @@ Share shareOf(const GroupMotion &group, const Ride &ride, const PathLimits &path
           ride.most.acceleration, ride.most.jerk, velocityWithin(group, path, settled), change};
 }
 
+/// Until a tool is reached, and while it is left, the copy may turn and move a little faster than
+/// that does. See leaveHalf for how its own velocity changes.
+Share shareOfSettling(const PathLimits &path) noexcept {
+  constexpr double kMost = 1.52; // of the polynomial in ride.cpp
+  return {kMost, 0.0, 0.0, path.velocity, larger(path.acceleration, path.deceleration)};
+}
+
+/// The other half is what settlingTime may take.
+void leaveHalf(const AxisLimits &whole, AxisLimits &limits) noexcept {
+  constexpr double kHalf = 0.5;
+  limits.velocity = smaller(limits.velocity, kHalf * whole.velocity);
+  limits.acceleration = smaller(limits.acceleration, kHalf * whole.acceleration);
+  limits.jerk = smaller(limits.jerk, kHalf * whole.jerk);
+}
+
 /// Derivatives of an axis by the carrier's way (u) and the path's (s).
 struct Mixed {
   double u, uu, uuu, su, ssu, suu;
@@ -98,37 +124,12 @@ void leave(const Mixed &mixed, const Share &share, AxisLimits &limit) noexcept {
   limit.jerk = larger(limit.jerk - jerk, kLeast * limit.jerk);
 }
 
-/// Lowers what a follower may to half of what the axes have left where the carrier is at a place.
-void lower(motion::Dynamics &most, const Arm &arm, const Series (&axes)[kAxes],
-           double carrierVelocity) noexcept {
-  constexpr double kHalf = 0.5;
-  constexpr double kLeast = 0.05; // of what the axes can do, beside a carrier that is too fast
-  for (int32_t k = 0; k < arm.joints; ++k) {
-    const double first = fabs(axes[k].c[1]);
-    const AxisLimits &limits = arm.limits[k];
-    if (!(first > 0.0))
-      continue;
-    const double free =
-        larger(limits.velocity - first * fabs(carrierVelocity), kLeast * limits.velocity);
-    most.velocity = smaller(most.velocity, kHalf * free / first);
-    most.acceleration = smaller(most.acceleration, kHalf * limits.acceleration / first);
-    most.jerk = smaller(most.jerk, kHalf * limits.jerk / first);
-  }
-}
-
-/// Of the velocity of the path, what a tool that is followed is taken to have at least.
-constexpr double kSlowest = 0.05;
-
-/// How fast the tool's point is where the carrier goes by 1. [u]
-double speedOf(const PathPlace &place) noexcept {
-  return numeric::norm(
-      {place.tool.place(0).c[1], place.tool.place(1).c[1], place.tool.place(2).c[1]});
-}
-
 } // namespace
 
 Frame<Series> pathSystem(const GroupMotion &group) noexcept {
-  return systemWith(group, inTime(group.ride.follower), inTime(group.left.follower));
+  const Ride &ride = group.ride;
+  return systemWith(group, isUsed(ride) ? copyOf(ride) : followedAt(ride, Series(0.0)),
+                    inTime(group.left.follower));
 }
 
 CarriedTrack::CarriedTrack(const GroupMotion &group, const Track &track, double ahead,
@@ -175,8 +176,10 @@ void CarriedTrack::yieldTo(const Ride &ride, const Arm &arm, double way,
       !axesAlong(arm, way, reference, {1.0, byRide, byLeft}, forwards) ||
       !axesAlong(arm, way, reference, {1.0, -byRide, -byLeft}, backwards))
     return;
-  const Share share = shareOf(group_, ride, path_, time_);
+  const bool settles = ride.system.kind == CarrierKind::Tool && time_ < timeToSettle(ride);
+  const Share share = settles ? shareOfSettling(path_) : shareOf(group_, ride, path_, time_);
   for (int32_t k = 0; k < arm.joints; ++k) {
+    const AxisLimits whole = limits[k];
     const Series &f = forwards[k];
     const Series &b = backwards[k];
     const Series &u = carried[k];
@@ -188,6 +191,8 @@ void CarriedTrack::yieldTo(const Ride &ride, const Arm &arm, double way,
     leave({fabs(u.c[1]), 2.0 * fabs(u.c[2]), 6.0 * fabs(u.c[3]), 0.5 * fabs(f.c[2] - b.c[2]),
            fabs(f.c[3] - b.c[3] - 2.0 * u.c[3]), fabs(f.c[3] + b.c[3] - 2.0 * path[k].c[3])},
           share, limits[k]);
+    if (settles)
+      leaveHalf(whole, limits[k]);
   }
 }
 
@@ -208,64 +213,6 @@ double CarriedTrack::reach() const noexcept {
   return time > 0.0 ? velocityWithin(group_, path_, time) * time : exact::kInfinity;
 }
 
-motion::Dynamics boardingDynamics(const GroupMotion &group, const Arm &arm,
-                                  const MovingSystem &system, const motion::State &carrier,
-                                  const PathLimits &path) noexcept {
-  const Frame<double> now = valueOf(systemAt(system, Series(carrier.position)));
-  const Frame<Series> onCarrier =
-      seriesOf(kinematics::inverted(now) * inMachine(group, poseInPath(group, arm)));
-  const Arm standing{arm.kinematics, arm.joints, arm.more, arm.limits,
-                     arm.kinematics.configurationOf(group.axes)};
-  PathPlace place;
-  place.byTool = true;
-  place.tool = systemAt(system, growing(carrier.position, 1.0)) * onCarrier;
-  for (int32_t k = kArmAxes; k < kAxes; ++k)
-    place.axes[k] = Series(group.axes[k]);
-  // A tool that hardly moves has been reached at once.
-  const double slowest = system.kind == CarrierKind::Tool ? kSlowest * path.velocity : 0.0;
-  const double speed = larger(speedOf(place), slowest);
-  const double perPath = speed > 0.0 ? 1.0 / speed : exact::kInfinity;
-  const double acceleration = smaller(path.acceleration, path.deceleration) * perPath;
-  motion::Dynamics most{motion::RampType::Parabolic, path.velocity * perPath, acceleration,
-                        acceleration, path.jerk * perPath};
-  Series axes[kAxes];
-  // Here and where the carrier will be about when it has been reached.
-  constexpr int32_t kPlaces = 6;
-  double time = 0.0;
-  for (int32_t i = 0; i <= kPlaces; ++i) {
-    const double position = carrier.position + carrier.velocity * time * i / kPlaces;
-    place.tool = systemAt(system, growing(position, 1.0)) * onCarrier;
-    if (axesAt(standing, place, group.axes, axes) == Obstacle::None)
-      lower(most, arm, axes, carrier.velocity);
-    if (i == 0)
-      time = 3.0 * (fabs(carrier.velocity) / most.acceleration + most.acceleration / most.jerk);
-  }
-  most.deceleration = most.acceleration;
-  return most;
-}
-
-void board(GroupMotion &group, const Arm &arm, const MovingSystem &system,
-           const motion::State &carrier, const motion::Dynamics &most) noexcept {
-  alight(group, arm);
-  beginRide(group.ride, system, carrier, most);
-  group.tool = poseOf(kinematics::inverted(restOf(group.ride)) * frameOf(group.tool));
-}
-
-void alight(GroupMotion &group, const Arm &arm) noexcept {
-  Frame<double> tool = frameOf(poseInPath(group, arm));
-  if (isStill(group.left))
-    group.left = {};
-  if (isUsed(group.ride)) {
-    brakeRide(group.ride);
-    tool = restOf(group.ride) * tool;
-    group.left = group.ride;
-  }
-  group.ride = {};
-  group.tool = poseOf(tool);
-  if (isStill(group.left))
-    group.left = {};
-}
-
 Pose poseInPath(const GroupMotion &group, const Arm &arm) noexcept {
   if (isCarried(group))
     return group.tool;
@@ -278,10 +225,11 @@ double lagOf(const GroupMotion &group) noexcept {
   const Ride &ride = group.ride;
   if (!ride.follows || ride.inSync)
     return 0.0;
-  const auto toolWhen = [&](double carrier) {
-    return plain((valueOf(systemAt(ride.system, Series(carrier))) * frameOf(group.tool)).place);
+  const auto toolIn = [&group](const Frame<Series> &system) {
+    return plain((valueOf(system) * frameOf(group.tool)).place);
   };
-  return numeric::norm(toolWhen(ride.carrier.position) - toolWhen(ride.follower.position));
+  return numeric::norm(toolIn(systemAt(ride.system, Series(ride.carrier.position))) -
+                       toolIn(copyOf(ride)));
 }
 
 Frame<double> inMachine(const GroupMotion &group, const Pose &pose) noexcept {

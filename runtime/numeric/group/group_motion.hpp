@@ -217,10 +217,14 @@ void board(GroupMotion &group, const Arm &arm, const MovingSystem &system,
            const motion::State &carrier, const motion::Dynamics &most) noexcept;
 
 /// How the group may get to a system: as the command's path says, as far as the axes reach, of
-/// which half is left for the path itself. At least as fast as that it must be able to go.
+/// which half is left for the path itself. At least as fast as that it must be able to go. Of a
+/// tool what the path says; how long that takes board() finds out.
 motion::Dynamics boardingDynamics(const GroupMotion &group, const Arm &arm,
                                   const MovingSystem &system, const motion::State &carrier,
                                   const PathLimits &path) noexcept;
+
+/// The group's copy of the system that it follows comes to rest.
+void brake(GroupMotion &group, const Arm &arm) noexcept;
 
 /// From now on movements are in the machine's system, likewise.
 void alight(GroupMotion &group, const Arm &arm) noexcept;

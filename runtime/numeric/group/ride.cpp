@@ -17,28 +17,88 @@ Vector3 axialOf(const Matrix<double> &matrix) noexcept {
           0.5 * (matrix(1, 0) - matrix(0, 1))};
 }
 
-/// Where a tool is some time after it was at its origin, or before. It turns by the rotation whose
-/// vector is half of what it turns by: the same up to the second derivative, and without an angle
-/// that it cannot be at.
-Frame<Series> toolAfter(const MovingSystem &system, const Series &time) noexcept {
-  const ToolMotion &tool = system.tool;
-  const Frame<Series> origin = seriesOf(frameOf(system.origin));
-  const Series half = Series(0.5) * time * time;
-  const auto along = [&](const Vector3 &first, const Vector3 &second) {
-    return Vector<Series>(Series(first.x) * time + Series(second.x) * half,
-                          Series(first.y) * time + Series(second.y) * half,
-                          Series(first.z) * time + Series(second.z) * half);
-  };
-  Frame<Series> moved;
-  moved.place = origin.place + along(tool.velocity, tool.acceleration);
-  const Vector<Series> g = along(tool.spin, tool.spinChange) * Series(0.5);
+/// A turn whose vector of rotation is twice `g`, or nearly so: the same up to the second derivative
+/// where g is 0, and without an angle that it cannot be at.
+Matrix<Series> turnedBy(const Vector<Series> &g) noexcept {
   Matrix<Series> cross;
   cross << Series(0.0), -g(2), g(1), g(2), Series(0.0), -g(0), -g(1), g(0), Series(0.0);
   const Series share = Series(2.0) / (Series(1.0) + g(0) * g(0) + g(1) * g(1) + g(2) * g(2));
   const Matrix<Series> turned = cross * cross + cross;
-  moved.turn = (Matrix<Series>::Identity() + turned * share) * origin.turn;
+  return Matrix<Series>::Identity() + turned * share;
+}
+
+/// What a velocity and an acceleration make of ways.
+struct Ways {
+  Series byVelocity;     ///< [s]
+  Series byAcceleration; ///< [s^2]
+};
+
+Vector<Series> along(const Ways &ways, const Vector3 &velocity, const Vector3 &change) noexcept {
+  const auto sum = [&ways](double v, double a) {
+    return Series(v) * ways.byVelocity + Series(a) * ways.byAcceleration;
+  };
+  return {sum(velocity.x, change.x), sum(velocity.y, change.y), sum(velocity.z, change.z)};
+}
+
+/// Moves a frame as a tool does that goes on by such ways, or back by them.
+Frame<Series> movedBy(const Ways &ways, const ToolMotion &tool, double side,
+                      const Frame<Series> &frame) noexcept {
+  const Series half(0.5 * side);
+  Frame<Series> moved;
+  moved.place = frame.place + along(ways, tool.velocity, tool.acceleration) * Series(side);
+  moved.turn = turnedBy(along(ways, tool.spin, tool.spinChange) * half) * frame.turn;
   return moved;
 }
+
+/// Where a tool is some time after it was at its origin, or before.
+Frame<Series> toolAfter(const MovingSystem &system, const Series &time) noexcept {
+  return movedBy({time, Series(0.5) * time * time}, system.tool, 1.0,
+                 seriesOf(frameOf(system.origin)));
+}
+
+/// A polynomial of a part of a time, by its coefficients from the first power on.
+template <int kPowers>
+Series polynomial(const Series &part, const double (&coefficients)[kPowers]) noexcept {
+  Series sum(0.0);
+  for (int i = kPowers - 1; i >= 0; --i)
+    sum = (sum + Series(coefficients[i])) * part;
+  return sum;
+}
+
+/// What has begun with a velocity and an acceleration comes back to where it began, and rests
+/// there.
+Ways waysThereAndBack(const Series &time, double duration) noexcept {
+  const Series part = time * Series(1.0 / duration);
+  return {polynomial(part, {1.0, 0.0, -6.0, 8.0, -3.0}) * Series(duration),
+          polynomial(part, {0.0, 0.5, -1.5, 1.5, -0.5}) * Series(duration * duration)};
+}
+
+/// The same comes to rest, with a velocity that is a cubic.
+Ways waysToRest(const Series &time, double duration) noexcept {
+  const Series part = time * Series(1.0 / duration);
+  return {polynomial(part, {1.0, 0.0, -1.0, 0.5}) * Series(duration),
+          polynomial(part, {0.0, 0.5, -2.0 / 3.0, 0.25}) * Series(duration * duration)};
+}
+
+/// The group's copy of a tool.
+Frame<Series> copyOfTool(const Ride &ride, const Series &time) noexcept {
+  const ToolMotion &begin = ride.begin;
+  const Series since = time - Series(begin.time);
+  if (ride.brakes) {
+    const Frame<Series> origin = seriesOf(frameOf(ride.system.origin));
+    if (!(ride.settling > 0.0))
+      return origin;
+    const bool rests = since.c[0] >= ride.settling;
+    return movedBy(waysToRest(rests ? Series(ride.settling) : since, ride.settling), begin, 1.0,
+                   origin);
+  }
+  const Frame<Series> tool = toolAfter(ride.system, time - Series(ride.system.tool.time));
+  if (since.c[0] >= ride.settling)
+    return tool;
+  return movedBy(waysThereAndBack(since, ride.settling), begin, -1.0, tool);
+}
+
+bool isTool(const Ride &ride) noexcept { return ride.system.kind == CarrierKind::Tool; }
 
 } // namespace
 
@@ -90,14 +150,43 @@ Series inTime(const motion::State &state) noexcept {
   return series;
 }
 
+Frame<Series> copyAt(const Ride &ride, const Series &follower) noexcept {
+  if (!isTool(ride))
+    return systemAt(ride.system, follower);
+  return copyOfTool(ride, follower) * seriesOf(frameOf(ride.system.object));
+}
+
 void beginRide(Ride &ride, const MovingSystem &system, const motion::State &carrier,
-               const motion::Dynamics &most) noexcept {
+               const motion::Dynamics &most, double settling) noexcept {
   ride = {};
   ride.system = system;
   ride.follower = {carrier.position, 0.0, 0.0};
   ride.carrier = carrier;
   ride.most = most;
   ride.follows = true;
+  if (!isTool(ride))
+    return;
+  ride.follower = carrier;
+  ride.begin = system.tool;
+  ride.settling = settling;
+  ride.inSync = !(settling > 0.0);
+}
+
+void leaveTool(Ride &ride) noexcept {
+  Pose origin;
+  ride.begin = motionOf(copyOfTool(ride, inTime(ride.follower)), ride.follower.position, origin);
+  ride.system.origin = origin;
+  ride.follows = false;
+  ride.brakes = true;
+  ride.inSync = false;
+}
+
+void brakeWithin(Ride &ride, double settling) noexcept {
+  ride.settling = settling;
+  ride.brake = {};
+  ride.brake.duration = settling;
+  ride.brake.end = {ride.begin.time + settling, 0.0, 0.0};
+  ride.braked = 0.0;
 }
 
 void brakeRide(Ride &ride) noexcept {
@@ -115,8 +204,32 @@ void brakeRide(Ride &ride) noexcept {
   ride.inSync = false;
 }
 
-void goOn(Ride &ride, const motion::State &carrier, double cycle) noexcept {
+namespace {
+
+/// A tool that is followed, or has been.
+void goOnWithTool(Ride &ride, const motion::State &carrier, double cycle) noexcept {
+  constexpr double kRounding = 1e-9; // of a cycle
   if (ride.follows) {
+    ride.follower = ride.carrier = carrier;
+    ride.inSync = carrier.position - ride.begin.time >= ride.settling - kRounding * cycle;
+    if (ride.inSync)
+      ride.settling = 0.0;
+    return;
+  }
+  ride.braked = exact::smaller(ride.braked + cycle, ride.brake.duration);
+  ride.follower = ride.braked < ride.brake.duration
+                      ? motion::State{ride.begin.time + ride.braked, 1.0, 0.0}
+                      : ride.brake.end;
+}
+
+} // namespace
+
+void goOn(Ride &ride, const motion::State &carrier, double cycle) noexcept {
+  if (!isUsed(ride))
+    return;
+  if (isTool(ride)) {
+    goOnWithTool(ride, carrier, cycle);
+  } else if (ride.follows) {
     motion::Dynamics most = ride.most;
     most.velocity +=
         exact::larger(exact::fabs(carrier.velocity), exact::fabs(ride.carrier.velocity));
@@ -125,19 +238,15 @@ void goOn(Ride &ride, const motion::State &carrier, double cycle) noexcept {
     ride.follower = next.axis;
     ride.inSync = next.reached;
     ride.carrier = carrier;
-  } else if (ride.brakes) {
+  } else {
     ride.braked = exact::smaller(ride.braked + cycle, ride.brake.duration);
     ride.follower = ride.braked < ride.brake.duration ? ride.brake.at(ride.braked) : ride.brake.end;
   }
 }
 
-Frame<Series> copyOf(const Ride &ride) noexcept {
-  return systemAt(ride.system, inTime(ride.follower));
-}
-
 Frame<double> restOf(const Ride &ride) noexcept {
   const double rest = ride.brakes ? ride.brake.end.position : ride.follower.position;
-  return valueOf(systemAt(ride.system, Series(rest)));
+  return valueOf(copyAt(ride, Series(rest)));
 }
 
 } // namespace stride::group

@@ -21,6 +21,8 @@ constexpr Pass kPasses[] = {
 constexpr uint8_t kPassCount = sizeof kPasses / sizeof kPasses[0];
 constexpr uint8_t kCellPass = 4;    ///< addCell, which may find that there are too few.
 constexpr uint8_t kThirdRound = 20; ///< Of pass 4, which lean plans do without.
+constexpr uint8_t kFirstRound = 16; ///< Of pass 4.
+constexpr uint8_t kCheckPass = 22;  ///< check
 constexpr int kMostCuts = 12;       ///< Of the run, if so.
 constexpr int kCoarserRuns = 8;     ///< So often the same run may be tried with coarser cells.
 constexpr double kFirstCut = 0.75;  ///< See Plan::cut.
@@ -45,6 +47,7 @@ void beginPasses(Plan &plan, const Course &course, double cut) noexcept {
   plan.round = 0;
   plan.worst = 1.0;
   plan.isAlone = false;
+  plan.careful = false;
 }
 
 /// Once more without the ramp, from the state that was asked for.
@@ -67,13 +70,28 @@ double nextCut(const Plan &plan) noexcept {
   return kHardCut * exact::smaller(plan.cut, plan.time / (plan.task.cellTime * plan.task.cells));
 }
 
-/// After a failure: with a shorter run, if there were too few cells, or without a ramp.
+/// Pass 4 from its first round on, carefully.
+void repeatWithCare(Plan &plan) noexcept {
+  plan.careful = true;
+  plan.state = PlanState::Working;
+  plan.phase = kFirstRound;
+  plan.round = 0;
+  plan.index = 0;
+  plan.worst = 1.0;
+  for (int32_t i = 0; i < plan.count; ++i)
+    plan.cell[i].square = plan.cell[i].bound;
+}
+
+/// After a failure: with a shorter run, if there were too few cells, with more care, or without a
+/// ramp.
 void tryAgain(Plan &plan, const Course &course) noexcept {
   if (plan.phase == kCellPass && plan.cuts < kMostCuts && !plan.task.whole) {
     plan.state = PlanState::Working;
     const double cut = nextCut(plan);
     ++plan.cuts;
     beginPasses(plan, course, cut);
+  } else if (plan.phase == kCheckPass && !plan.careful && plan.worst < 1.0 + kCare) {
+    repeatWithCare(plan);
   } else if (plan.ramp > 0) {
     beginWithoutRamp(plan, course);
   }

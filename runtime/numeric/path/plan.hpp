@@ -120,6 +120,8 @@ struct Plan {
   bool coarse;      ///< The run only brakes for an open end: see kCoarse.
   bool slowing;     ///< What is reached at first is above the ceilings.
   bool gate;        ///< See Strip.
+  bool careful;     ///< Pass 4 is made once more, with less than the jerk: it exceeded a limit by
+                    ///< little, since it takes what the jerk allows from the velocities before it.
 };
 
 /// Begins a plan over the strips that `course` has now. Nothing of `course` that lies ahead may be

@@ -6,6 +6,9 @@
 
 namespace stride::path {
 
+/// Which part of the jerk a careful plan does without in pass 4.
+inline constexpr double kCare = 0.002;
+
 inline bool startsAtRest(const Plan &plan) noexcept { return !(plan.task.velocity > 0.0); }
 
 // By the cell before a knot; the next one comes after it. Indices would be added up anew for each

@@ -187,6 +187,9 @@ void riseOverSpan(Plan &plan) noexcept {
 /// Whether this round of pass 4 is the last one.
 bool isLastRound(const Plan &plan) noexcept { return plan.round == (plan.task.lean ? 1 : 2); }
 
+/// What slopes may fall within a cell, in units of changeIn.
+double fallOf(const Plan &plan) noexcept { return plan.careful ? 2.0 * (1.0 - kCare) : 2.0; }
+
 /// Lowers a cell to the hull. The next round takes from it how far slopes can fall: of a hull
 /// that is too low, since its own velocities were too high, that would be too far.
 void lower(const Plan &plan, Cell &cell, double square) noexcept {
@@ -291,7 +294,7 @@ bool stackHullOnce(Plan &plan, const Course & /*course*/) noexcept {
   }
   if (plan.round == 0)
     cell.bound = cell.square;
-  cell.change = isRestCell(plan, i) ? 0.0 : 2.0 * changeIn(plan, i);
+  cell.change = isRestCell(plan, i) ? 0.0 : fallOf(plan) * changeIn(plan, i);
   const Cell *const before = &cell - 1;
   cell.lift = i > 0 ? before->lift + plan.curveSlope * spanAt(before) : 0.0;
   plan.curveSlope += cell.change;
