@@ -58,20 +58,42 @@ std::string identifierOf(const std::string &text) {
   return name.empty() || (name.front() >= '0' && name.front() <= '9') ? "Drive" : name;
 }
 
-/// What the driver must know of the device, as rows of its section.
-std::string settingsOfDrive(const eds::Device &device) {
+// A device may be several drives, whose objects lie 800h apart. [CiA 301, logical devices]
+constexpr uint16_t kProfile = 0x6000;
+constexpr uint16_t kAxisObjects = 0x0800;
+constexpr int kMostAxes = 8;
+
+/// Objects of an axis.
+uint16_t ofAxis(uint16_t index, int axis) {
+  return static_cast<uint16_t>(index + kAxisObjects * axis);
+}
+
+/// -1: of none.
+int axisOf(uint16_t index) { return index < kProfile ? -1 : (index - kProfile) / kAxisObjects; }
+
+/// The axes that have a controlword; a device without any is taken for one drive.
+std::vector<int> axesOf(const eds::Device &device) {
+  std::vector<int> axes;
+  for (int axis = 0; axis < kMostAxes; ++axis)
+    if (has(device, ofAxis(0x6040, axis)))
+      axes.push_back(axis);
+  return axes.empty() ? std::vector<int>{0} : axes;
+}
+
+/// What the driver must know of an axis of the device, as rows of its section.
+std::string settingsOfDrive(const eds::Device &device, int axis, bool first) {
   std::string text;
   const std::vector<eds::Pdo> pdos = eds::pdosOf(device);
-  if (isMappable(device, 0x60FD))
+  if (isMappable(device, ofAxis(0x60FD, axis)))
     text += "inputs = true                      # limit and home switches by 60FDh\n";
-  if (!device.find(0x1017, 0))
+  if (first && !device.find(0x1017, 0))
     text += "guard = \"T#100ms\"                  # it has no heartbeat (1017h)\n";
-  if (!has(device, 0x6098))
+  if (!has(device, ofAxis(0x6098, axis)))
     text += "homing = \"controller\"              # it has no homing mode (6098h)\n";
-  if (has(device, 0x60B8)) {
+  if (has(device, ofAxis(0x60B8, axis))) {
     int inputs = 0;
     for (const int i : {0, 1, 2, 3})
-      if (has(device, static_cast<uint16_t>(0x60BA + i)))
+      if (has(device, ofAxis(static_cast<uint16_t>(0x60BA + i), axis)))
         inputs += 1 << i;
     text += fmt::format("probe_inputs = {}                   # touch probes by 60B8h\n", inputs);
   }
@@ -87,6 +109,8 @@ std::string settingsOfDrive(const eds::Device &device) {
 /// matter.
 bool isDrivers(uint16_t index) {
   constexpr uint16_t kCommunicationEnd = 0x2000;
+  if (const int axis = axisOf(index); axis > 0 && axis < kMostAxes)
+    index = static_cast<uint16_t>(index - kAxisObjects * axis);
   return index < kCommunicationEnd || index == 0x6040 || index == 0x6041 || index == 0x6060 ||
          index == 0x6061 || index == 0x60C2;
 }
@@ -106,10 +130,15 @@ std::string startUpOf(const eds::Object &object, uint8_t node) {
   return fmt::format("{:04X}h{} := {}#{}", object.index, sub, type, object.configured->in(node));
 }
 
-/// The values of a DCF as `startup`, a line each; empty: it has none.
-std::string startUpList(const eds::Device &device, uint8_t node, size_t &others) {
+/// The values of a DCF as `startup`, a line each; empty: it has none. Those of no axis, or of one
+/// that is no drive, are the first drive's.
+std::string startUpList(const eds::Device &device, uint8_t node, size_t place, size_t &others) {
   std::string text;
+  const std::vector<int> axes = axesOf(device);
   for (const eds::Object &object : device.objects) {
+    const auto owner = std::find(axes.begin(), axes.end(), axisOf(object.index));
+    if ((owner == axes.end() ? 0 : static_cast<size_t>(owner - axes.begin())) != place)
+      continue;
     const std::string one = startUpOf(object, node);
     others += one.empty() && object.configured ? 1 : 0;
     if (!one.empty())
@@ -143,6 +172,41 @@ std::string remarksOf(const eds::Device &device) {
   return text;
 }
 
+/// The section of an axis of the device, by its place among them.
+std::string driveSection(const eds::Device &device, const std::string &name, int node,
+                         size_t place) {
+  const int axis = axesOf(device)[place];
+  std::string text =
+      fmt::format("[[bus.axis_group.drive]]\nname = \"{}\"\nwDriveId = {}\n", name, node);
+  if (axis > 0)
+    text += fmt::format("axis = {}\n", axis);
+  text += settingsOfDrive(device, axis, place == 0);
+  size_t others = 0;
+  text += startUpList(device, static_cast<uint8_t>(node), place, others);
+  if (others != 0)
+    text +=
+        fmt::format("# Not in this section: {} configured value{} of the file: the driver's own "
+                    "matter (PDOs, heartbeats), or no whole numbers of up to 32 bits.\n",
+                    others, others == 1 ? "" : "s");
+  const eds::Identity &identity = device.identity;
+  if (place == 0 && identity.vendor != 0) {
+    text += "\n[bus.axis_group.drive.identity]\n";
+    text += fmt::format("vendor = {}\n", identity.vendor);
+    if (identity.product != 0)
+      text += fmt::format("product = {}\n", identity.product);
+  }
+  return text;
+}
+
+/// Drives that are the same node.
+std::string furtherAxes(const eds::Device &device, const std::string &name, int node) {
+  std::string text;
+  const std::vector<int> axes = axesOf(device);
+  for (size_t place = 1; place < axes.size(); ++place)
+    text += "\n" + driveSection(device, fmt::format("{}_{}", name, axes[place]), node, place);
+  return text;
+}
+
 std::string sectionOf(const eds::Device &device, const CanOptions &can) {
   const std::string name = can.name.empty() ? identifierOf(device.identity.productName) : can.name;
   const int node = can.node != 0 ? can.node : device.nodeId ? *device.nodeId : 1;
@@ -150,23 +214,8 @@ std::string sectionOf(const eds::Device &device, const CanOptions &can) {
       fmt::format("# {}{}{}\n", device.identity.vendorName,
                   device.identity.vendorName.empty() ? "" : ", ", device.identity.productName);
   text += remarksOf(device);
-  text += fmt::format("[[bus.axis_group.drive]]\nname = \"{}\"\nwDriveId = {}\n", name, node);
-  text += settingsOfDrive(device);
-  size_t others = 0;
-  text += startUpList(device, static_cast<uint8_t>(node), others);
-  if (others != 0)
-    text +=
-        fmt::format("# Not in this section: {} configured value{} of the file: the driver's own "
-                    "matter (PDOs, heartbeats), or no whole numbers of up to 32 bits.\n",
-                    others, others == 1 ? "" : "s");
-  const eds::Identity &identity = device.identity;
-  if (identity.vendor != 0) {
-    text += "\n[bus.axis_group.drive.identity]\n";
-    text += fmt::format("vendor = {}\n", identity.vendor);
-    if (identity.product != 0)
-      text += fmt::format("product = {}\n", identity.product);
-  }
-  return text;
+  text += driveSection(device, name, node, 0);
+  return text + furtherAxes(device, name, node);
 }
 
 } // namespace

@@ -200,8 +200,10 @@ bool PlcReader::addVariable(const ConfigName &name) {
 void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group, Unique &ids) {
   DriveConfig drive;
   drive.name = nameOf(section);
+  // Drives on CAN may be axes of one node.
+  const TomlNode *axis = section.get("axis");
   if (const TomlNode *id = section.get("wDriveId"))
-    ids.add(std::to_string(id->integer), id->span,
+    ids.add(fmt::format("{}.{}", id->integer, axis != nullptr ? axis->integer : 0), id->span,
             fmt::format("two drives of axis group `{}` have the wDriveId {}", group.name.text,
                         id->integer));
   drive.id = static_cast<uint32_t>(section.integer("wDriveId", 0));

@@ -39,7 +39,10 @@ std::string_view nameOf(NodeConfig::Kind kind) {
 } // namespace
 
 CanDriver::CanDriver(const bus::GroupSetup &setup, std::unique_ptr<Port> port)
-    : CanDriver(canSetup(setup), std::move(port)) {}
+    : CanDriver(canSetup(setup), std::move(port)) {
+  if (ParameterLoader::isNeeded(setup))
+    loader_ = std::make_unique<ParameterLoader>(setup);
+}
 
 CanDriver::CanDriver(const CanSetup &setup, std::unique_ptr<Port> port)
     : master_(setup.master, std::move(port)), load_(setup.load), faults_(setup.faults),
@@ -156,6 +159,8 @@ void CanDriver::stop() {
 
 bus::StartUp CanDriver::init(size_t drive, uint16_t &progress, bus::Message &message) {
   progress = 0;
+  if (awaits_ && !takeParameters())
+    return bus::StartUp::Busy;
   if (!faults_[drive].empty()) {
     message.set(std::string_view(faults_[drive]));
     return bus::StartUp::Failed;
@@ -169,7 +174,29 @@ bus::StartUp CanDriver::init(size_t drive, uint16_t &progress, bus::Message &mes
 
 void CanDriver::reset(size_t drive) {
   nodeOf(drive).reset(places_[drive].device);
+  if (loader_ != nullptr) {
+    loader_->request();
+    awaits_ = true;
+  }
   resetOthers();
+}
+
+/// What the files of drives say now is for those whose start-up has not begun; others keep what
+/// they have been given. FALSE: they are still being read.
+bool CanDriver::takeParameters() {
+  if (!loader_->poll())
+    return false;
+  awaits_ = false;
+  LoadedParameters &loaded = loader_->loaded();
+  for (size_t i = 0; i < std::min(loaded.steps.size(), driveNodes_); ++i)
+    if (master_.node(i).idle())
+      master_.node(i).exchangeSteps(loaded.steps[i]);
+  for (size_t i = 0; i < faults_.size(); ++i)
+    if (nodeOf(i).idle())
+      faults_[i].swap(loaded.faults[i]);
+  for (const std::string &note : loaded.notes)
+    master_.news().say(std::string_view(note));
+  return true;
 }
 
 bus::DriveStatus CanDriver::status(size_t drive) const {

@@ -4,6 +4,7 @@
 
 #include "drivers/can/can_setup.hpp"
 #include "drivers/can/master/master.hpp"
+#include "drivers/can/parameter_loader.hpp"
 #include "drivers/can/port/port.hpp"
 #include "runtime/bus/axis_driver.hpp"
 #include "runtime/bus/group_setup.hpp"
@@ -52,6 +53,7 @@ private:
 
   void startOthers();
   void stop();
+  bool takeParameters();
 
   [[nodiscard]] Node &nodeOf(size_t drive) { return master_.node(places_[drive].node); }
   [[nodiscard]] const Node &nodeOf(size_t drive) const { return master_.node(places_[drive].node); }
@@ -69,6 +71,8 @@ private:
   BusLoad load_;
   std::vector<std::string> faults_; ///< Of each drive: why it cannot start.
   std::vector<std::string> notes_;
+  std::unique_ptr<ParameterLoader> loader_; ///< Null: no drive has a file.
+  bool awaits_ = false;                     ///< What the loader was asked for is still to be taken.
   bus::DriverHost *host_ = nullptr;
   int64_t periodNs_;
   uint32_t stopCycles_ = 0;        ///< Since the application has stopped …

@@ -3,13 +3,10 @@
 #include "drivers/can/master/frames.hpp"
 #include "drivers/can/plan/parameter_file.hpp"
 #include "drivers/can/schema.hpp"
+#include "runtime/common/folder_file.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
-#include <system_error>
 
 namespace stride::can {
 namespace {
@@ -112,24 +109,6 @@ void addIos(const bus::GroupSetup &setup, const GroupPlan &plan, CanSetup &resul
   }
 }
 
-/// The text of a file in the folder for files, which no name and no link leads out of; nothing: it
-/// is not there, or cannot be read.
-std::optional<std::string> textOfFile(const std::string &folder, const std::string &name) {
-  namespace fs = std::filesystem;
-  constexpr uintmax_t kMostBytes = uintmax_t{1} << 20U;
-  std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, error);
-  const fs::path path = fs::weakly_canonical(root / name, error);
-  const auto parted = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
-  if (error || parted.first != root.end() || !fs::is_regular_file(path, error) ||
-      fs::file_size(path, error) > kMostBytes)
-    return std::nullopt;
-  const std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return file ? std::optional(text.str()) : std::nullopt;
-}
-
 /// A value that is given twice is the last one, in the length that is known.
 void addOrReplace(std::vector<SdoWrite> &writes, SdoWrite write) {
   const auto same = std::find_if(writes.begin(), writes.end(),
@@ -156,7 +135,7 @@ void addFileParameters(const bus::GroupSetup &setup, CanSetup &result) {
     const std::string name = setup.drives[i].parameters.text("parameters");
     if (name.empty() || !result.faults[i].empty())
       continue;
-    const std::optional<std::string> text = textOfFile(*setup.files, name);
+    const std::optional<std::string> text = common::textOfFile(*setup.files, name);
     if (!text) {
       result.notes.push_back("drive '" + setup.drives[i].name + "': there is no file '" + name +
                              "' with its parameters: it keeps those that it has");

@@ -3,10 +3,10 @@
 #include "drivers/sercos/parameter_file.hpp"
 #include "drivers/sercos/plan/group_plan.hpp"
 #include "drivers/sercos/schema.hpp"
+#include "runtime/common/folder_file.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <optional>
 
 namespace stride::sercos {
 namespace {
@@ -34,14 +34,11 @@ DriveConfig driveConfig(const bus::DriveSetup &drive, const DriveSettings &setti
 
 /// Without what the driver writes itself, and what is locked.
 std::string readFile(const std::string &folder, const std::string &name, DriveConfig &config) {
-  const std::string path = folder.empty() ? name : folder + "/" + name;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file)
+  const std::optional<std::string> text = common::textOfFile(folder, name);
+  if (!text)
     return "the file '" + name + "' of its parameters cannot be read";
   std::string error;
-  if (!readParameterFile(text.str(), config.file, error))
+  if (!readParameterFile(*text, config.file, error))
     return "the file '" + name + "' of its parameters: " + error;
   const std::vector<Idn> &locked = config.settings.locked;
   std::erase_if(config.file, [&locked](const IdnValue &value) {

@@ -1,5 +1,6 @@
-// Frames on a CAN bus with two drives and an I/O device, whatever they are: through their start-up
-// and in operation. No drive that nobody has switched on is told to operate.
+// Frames on a CAN bus with two drives, one of them with two axes, and an I/O device, whatever they
+// are: through their start-up and in operation. No drive that nobody has switched on is told to
+// operate.
 #include "drivers/can/can_driver.hpp"
 #include "drivers/can/io_schema.hpp"
 #include "drivers/can/schema.hpp"
@@ -59,6 +60,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   stride::bus::GroupSetup setup(kSchema, 0.01);
   setup.addDrive("X", 3).parameters.add({"wControlType", "", 4});
   setup.addDrive("Y", 4).parameters.add({"probe_inputs", "", 15});
+  setup.addDrive("Z", 4).parameters.add({"axis", "", 2});
   stride::bus::IoSetup &io = setup.ios.emplace_back();
   io.name = "Io";
   io.inputBytes = 5;
@@ -77,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   command.capture = 15;
   for (int cycle = 0; cycle < 2000 && !(port->atEnd() && cycle > 300); ++cycle) {
     driver->executeStart();
-    for (size_t i = 0; i < 2; ++i) {
+    for (size_t i = 0; i < setup.drives.size(); ++i) {
       uint16_t progress = 0;
       stride::bus::Message message;
       if (driver->init(i, progress, message) == stride::bus::StartUp::Started)

@@ -2,6 +2,7 @@
 
 #include "drivers/can/master/frames.hpp"
 #include "drivers/can/master/power.hpp"
+#include "drivers/can/master/texts.hpp"
 
 #include <algorithm>
 #include <span>
@@ -184,11 +185,11 @@ void LogicalDevice::readDrive(uint16_t told, bool reachable, uint8_t node, bus::
   before_ = fault_;
   fault_ = drive_.fault();
   if (drive_.velocityDoubtful())
-    news.say("node ", uint32_t{node},
+    news.say("node ", uint32_t{node}, AxisText(plan_.axis),
              ": its velocity (606Ch) does not fit its positions (6064h): check velocity_scale");
   if (drive_.stuck() && !saidStuck_)
-    news.say("node ", uint32_t{node}, " stays in '", nameOf(drive_.powerState()),
-             "' whatever it is told");
+    news.say("node ", uint32_t{node}, AxisText(plan_.axis), " stays in '",
+             nameOf(drive_.powerState()), "' whatever it is told");
   saidStuck_ = drive_.stuck();
 }
 

@@ -85,6 +85,10 @@ public:
   /// that comes back after the others.
   void reset(size_t place);
   void lose(NodeLoss loss, bus::News &news);
+  /// Its start-up, which is not under way, has other steps from now on (StartUp::exchange).
+  void exchangeSteps(std::vector<StartStep> &steps) { startUp_.exchange(steps); }
+  /// Nothing of its start-up has been done yet.
+  [[nodiscard]] bool idle() const { return phase_ == Phase::Idle; }
 
   [[nodiscard]] bus::DriveStatus status(size_t place = 0) const;
   [[nodiscard]] bool communication() const;

@@ -82,6 +82,8 @@ class StartUp {
 public:
   explicit StartUp(const NodeConfig &config);
 
+  /// Other steps, from the next beginning on; what it had before is in `steps` then.
+  void exchange(std::vector<StartStep> &steps) { steps_.swap(steps); }
   /// From the beginning.
   void begin();
   /// One cycle. Failed: `message` says why.

@@ -61,7 +61,7 @@ std::string lssFault(const bus::SetupParameters &node, const bus::GroupSetup &se
              return other.parameters.number(key) == node.number(key);
            });
   };
-  std::ptrdiff_t same = 0; // the axes of a device have one identity
+  ptrdiff_t same = 0; // the axes of a device have one identity
   for (size_t i = 0; i < setup.drives.size(); ++i)
     same += deviceOf(setup, i) == i && isSame(setup.drives[i]) ? 1 : 0;
   same += std::count_if(setup.encoders.begin(), setup.encoders.end(), isSame) +

@@ -35,12 +35,13 @@ std::string contentOf(const Pdo &pdo, uint8_t axis) {
 
 struct Widths {
   size_t drive = 5;
+  size_t pdo = 5; ///< "RPDO1", of a further axis "RPDO65".
 };
 
 std::string row(const Widths &widths, const std::string &drive, const std::string &node,
                 const std::string &pdo, const std::string &id, const std::string &when,
                 const std::string &bytes, const std::string &bits, const std::string &content) {
-  return "  " + wide(drive, widths.drive) + wide(node, 4) + wide(pdo, 5) + wide(id, 6) +
+  return "  " + wide(drive, widths.drive) + wide(node, 4) + wide(pdo, widths.pdo) + wide(id, 6) +
          wide(when, 5) + wide(bytes, 5) + wide(bits, 4) + content + "\n";
 }
 
@@ -138,6 +139,9 @@ bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
     widths.drive = std::max(widths.drive, encoder.name.size());
   for (const bus::IoSetup &io : setup.ios)
     widths.drive = std::max(widths.drive, io.name.size());
+  for (const PlanResult &drive : plan.drives)
+    if (drive.plan.axis > 0)
+      widths.pdo = 7;
   text += row(widths, plan.ios.empty() ? "drive" : "name", "node", "PDO", "COB-ID", "when", "bytes",
               "bits", "content");
   for (size_t i = 0; i < plan.drives.size(); ++i) {

@@ -6,7 +6,10 @@ namespace stride::sercos {
 
 void HomingRun::step(bool wanted, bool able) {
   if (!wanted) {
-    if (step_ == Step::Starting || step_ == Step::Running)
+    // Until it is cancelled the drive has it, also when it has been executed: it would not begin
+    // again.
+    if (step_ == Step::Starting || step_ == Step::Running || step_ == Step::Reference ||
+        step_ == Step::Offset)
       step_ = Step::Cancelling;
     else if (step_ != Step::Cancelling && step_ != Step::Ending && step_ != Step::Failing)
       step_ = Step::Idle;

@@ -193,8 +193,12 @@ void Master::judgeMst() {
 }
 
 void Master::phaseZero() {
-  if (down_ || commanded_ == Phase::Zero || nextWanted(0) == slaves_.size())
+  if (down_)
     return;
+  if (commanded_ == Phase::Zero || nextWanted(0) == slaves_.size()) {
+    waited_ = 0; // the patience begins when somebody wants the ring
+    return;
+  }
   returns_ = answers_.light && answers_.mstReturned ? returns_ + 1 : 0;
   if (returns_ >= kMstReturns) {
     enter(Phase::One);

@@ -233,21 +233,26 @@ void ParameterTransfer::read(const ServiceChannel &channel) {
   answerWith(channel.number());
 }
 
-bool ParameterTransfer::encode(const Attribute &attribute, size_t &count) {
+bool ParameterTransfer::encode(const Attribute &attribute, std::span<const uint8_t> &bytes) {
   if (request_.form == ParameterForm::Bytes) {
-    count = request_.bytes.size();
-    std::copy(request_.bytes.bytes().begin(), request_.bytes.bytes().end(), bytes_.begin());
-    return attribute.list || count == attribute.bytes;
+    bytes = request_.bytes.bytes();
+    return attribute.list || bytes.size() == attribute.bytes;
   }
   if (place_.piece != 0) {
-    count = write_.size;
-    std::copy_n(write_.bytes.begin(), count, bytes_.begin());
+    bytes = std::span<const uint8_t>(write_.bytes).first(write_.size);
     write_.element = Element::None;
     return attribute.list;
   }
-  if (attribute.list)
+  if (attribute.list || !encodeNumber(attribute))
     return false;
-  count = attribute.bytes;
+  bytes = std::span<const uint8_t>(number_).first(attribute.bytes);
+  return true;
+}
+
+bool ParameterTransfer::encodeNumber(const Attribute &attribute) {
+  const size_t count = attribute.bytes;
+  if (count > number_.size())
+    return false;
   uint64_t word = request_.raw;
   if (request_.form == ParameterForm::Raw) {
     const uint32_t above = count >= 4 ? 0 : request_.raw >> (8 * count - 1);
@@ -266,20 +271,20 @@ bool ParameterTransfer::encode(const Attribute &attribute, size_t &count) {
       word = request_.value != 0 ? 1 : 0;
   }
   for (size_t i = 0; i < count; ++i)
-    bytes_[i] = static_cast<uint8_t>(word >> 8 * i);
+    number_[i] = static_cast<uint8_t>(word >> 8 * i);
   return true;
 }
 
 void ParameterTransfer::write(ServiceChannel &channel) {
-  size_t count = 0;
+  std::span<const uint8_t> bytes;
   const Attribute attribute = channel.attribute();
-  if (!encode(attribute, count)) {
+  if (!encode(attribute, bytes)) {
     answer(attribute.list && request_.form != ParameterForm::Bytes ? Result::Unknown
                                                                    : Result::Refused);
     return;
   }
   channel.release();
-  if (channel.write(place_.idn, std::span<const uint8_t>(bytes_).first(count)))
+  if (channel.write(place_.idn, bytes))
     step_ = Step::Writing;
 }
 

@@ -31,8 +31,7 @@ std::optional<ParameterPlace> placeOfParameter(int32_t number);
 class ParameterTransfer {
 public:
   /// `told`: what the drive is told in each cycle.
-  explicit ParameterTransfer(const CyclicRecord &told)
-      : told_(told), bytes_(ServiceChannel::kMost) {}
+  explicit ParameterTransfer(const CyclicRecord &told) : told_(told) {}
 
   /// Most bytes of a list in pieces of four: their places have 12 bits.
   static constexpr size_t kMostInPieces = 4 * 4094;
@@ -96,7 +95,8 @@ private:
   void refused(const ServiceChannel &channel);
   void read(const ServiceChannel &channel);
   void write(ServiceChannel &channel);
-  [[nodiscard]] bool encode(const Attribute &attribute, size_t &count);
+  [[nodiscard]] bool encode(const Attribute &attribute, std::span<const uint8_t> &bytes);
+  [[nodiscard]] bool encodeNumber(const Attribute &attribute);
   void beginDescribe(ServiceChannel &channel);
   void listRead(ServiceChannel &channel);
   void nextListed(ServiceChannel &channel);
@@ -104,7 +104,7 @@ private:
   [[nodiscard]] bool isTold(Idn idn, const Attribute &attribute) const;
 
   CyclicRecord told_;
-  std::vector<uint8_t> bytes_;
+  std::array<uint8_t, 8> number_{}; ///< That is written.
   Pieces read_;
   Pieces write_;
   std::array<Idn, kMostListed> listed_{};

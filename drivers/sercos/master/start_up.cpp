@@ -33,6 +33,11 @@ Element firstElement(StartOp op) {
   }
 }
 
+/// Bytes of a value, whatever the drive's attribute says.
+size_t mostBytesOf(const IdnValue &value) {
+  return std::max(value.text.size(), value.numbers.size() * sizeof(int64_t));
+}
+
 } // namespace
 
 StartUp::StartUp(const DriveConfig &config)
@@ -41,6 +46,13 @@ StartUp::StartUp(const DriveConfig &config)
       file_(config.file), fileWritten_(config.file.size()), steps_(&phases_[0]),
       commandTimeout_(config.commandTimeout) {
   scratch_.numbers.resize(1);
+  size_t most = mostBytesOf(scratch_);
+  for (const std::vector<StartStep> &phase : phases_)
+    for (const StartStep &one : phase)
+      most = std::max(most, mostBytesOf(one.value));
+  for (const IdnValue &one : file_)
+    most = std::max(most, mostBytesOf(one));
+  bytes_.resize(std::min(most, ServiceChannel::kMost));
   usual_.atBytes = config.settings.cyclic.at.bytes();
   usual_.mdtBytes = config.settings.cyclic.mdt.bytes();
 }

@@ -74,8 +74,8 @@ private:
   std::array<std::vector<StartStep>, kLists> phases_;
   const std::vector<IdnValue> file_;
   std::vector<bool> fileWritten_;
-  std::vector<uint8_t> bytes_ = std::vector<uint8_t>(ServiceChannel::kMost);
-  IdnValue scratch_; ///< With one number.
+  std::vector<uint8_t> bytes_; ///< With room for the longest value that is written.
+  IdnValue scratch_;           ///< With one number.
   DriveTiming timing_;
   DriveTiming usual_;
   DriveTimes times_;

@@ -199,6 +199,34 @@ TEST_F(DriveAxisTest, HomesByItsCommand) {
   EXPECT_EQ(axis->status().homing, bus::Homing::None);
 }
 
+/// A procedure command stays until it is cancelled: whoever gives the run up after its end must
+/// cancel it as well, or the next one would not begin.
+TEST_F(DriveAxisTest, AHomingThatIsGivenUpAtItsEndIsCancelled) {
+  for (const int answers : {2, 3}) { // while S-0-0052, or S-0-0150, is read
+    begin();
+    run();
+    command.homing = true;
+    cycle();
+    for (int i = 0; i < answers; ++i) {
+      const ServiceWish wish = axis->wish();
+      ASSERT_NE(wish.kind, ServiceWish::Kind::None);
+      axis->answered(wish, {true, wish.kind == ServiceWish::Kind::State ? 3 : 0});
+      cycle();
+    }
+    EXPECT_EQ(axis->wish().idn, answers == 2 ? idns::kReferenceDistance1 : idns::kReferenceOffset1);
+    command.homing = false;
+    cycle();
+    const ServiceWish wish = axis->wish();
+    EXPECT_EQ(wish.kind, ServiceWish::Kind::Write);
+    EXPECT_EQ(wish.idn, idns::kDriveHoming);
+    EXPECT_EQ(wish.value, command::kCancel);
+    axis->answered(wish, {true, 0});
+    cycle();
+    EXPECT_EQ(axis->wish().kind, ServiceWish::Kind::None);
+    EXPECT_EQ(axis->status().homing, bus::Homing::None);
+  }
+}
+
 TEST_F(DriveAxisTest, AHomingThatFailsIsCleared) {
   begin();
   run();

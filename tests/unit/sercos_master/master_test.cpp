@@ -318,6 +318,29 @@ TEST_F(MasterTest, CommandedPhaseIsTheLast) {
   EXPECT_FALSE(master->drive(0).status().communication);
 }
 
+/// Who leads the ring may take his time, and so may who starts its first drive.
+TEST_F(MasterTest, PatienceBeginsWhenTheRingIsWanted) {
+  add(1);
+  make();
+  master->commandPhase(Phase::Zero);
+  for (int i = 0; i < 1500; ++i) // 3 s
+    cycle();
+  EXPECT_EQ(ended[0], bus::StartUp::Busy) << text;
+  master->commandPhase(Phase::Four);
+  EXPECT_TRUE(start()) << text;
+  resetAll();
+  for (int i = 0; i < 1500; ++i) { // nobody calls init
+    master->executeStart();
+    master->executeEnd();
+  }
+  EXPECT_TRUE(start()) << text;
+  // Without a ring the patience is as long as ever.
+  resetAll();
+  ring->open = true;
+  EXPECT_FALSE(start());
+  EXPECT_THAT(text, HasSubstr("there is no light"));
+}
+
 TEST_F(MasterTest, AllocatesNothing) {
   add(1);
   add(2);
