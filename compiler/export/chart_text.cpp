@@ -5,6 +5,7 @@
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace stc::exporting {
@@ -120,7 +121,7 @@ private:
   }
 
   ChartActionText action() {
-    ChartActionText one{takeName(), "N", {}};
+    ChartActionText one{takeName(), "N", {}, {}};
     if (is("(")) {
       ++at_;
       if (!is(")"))
@@ -129,12 +130,34 @@ private:
         one.qualifier.pop_back();
       if (is(",")) {
         ++at_;
-        one.time = textUpTo(")");
+        takeTimes(one);
       }
       take(")");
     }
     take(";");
     return one;
+  }
+
+  /// `T#5s, done`: a time where the qualifier has one, then indicator variables.
+  void takeTimes(ChartActionText &one) {
+    constexpr std::array<std::string_view, 5> kTimed = {"L", "D", "SD", "DS", "SL"};
+    const std::string all = textUpTo(")");
+    if (std::ranges::find(kTimed, one.qualifier) == kTimed.end()) {
+      one.indicator = all;
+      return;
+    }
+    size_t depth = 0;
+    for (const StWord &each : wordsOf(all)) {
+      const char sign = all[each.begin];
+      depth += sign == '(' || sign == '[' ? 1 : 0;
+      depth -= sign == ')' || sign == ']' ? 1 : 0;
+      if (sign != ',' || depth != 0)
+        continue;
+      one.time = trimmed(std::string_view(all).substr(0, each.begin));
+      one.indicator = trimmed(std::string_view(all).substr(each.end));
+      return;
+    }
+    one.time = all;
   }
 
   std::vector<std::string> steps() {

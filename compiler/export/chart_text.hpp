@@ -9,11 +9,12 @@
 
 namespace stc::exporting {
 
-/// `Work(L, T#5s);`
+/// `Work(L, T#5s, done);`
 struct ChartActionText {
   std::string name;
   std::string qualifier; ///< in capital letters; N when none is written
   std::string time;      ///< empty: none
+  std::string indicator; ///< indicator variables, between commas; empty: none
 };
 
 struct ChartStepText {

@@ -160,6 +160,8 @@ private:
       action.append_attribute("qualifier") = each.qualifier.c_str();
       if (!each.time.empty())
         action.append_attribute("duration") = each.time.c_str();
+      if (!each.indicator.empty())
+        action.append_attribute("indicator") = each.indicator.c_str();
       Node place = action.append_child("relPosition");
       place.append_attribute("x") = "0";
       place.append_attribute("y") = "0";

@@ -205,7 +205,8 @@ Node Writer::pou(Node pous, const PouDecl &decl, const DeclarationTexts &texts, 
       action.append_attribute("name") = std::string(each->name.text).c_str();
       DeclarationText own = textFor(texts, *each);
       own.body = trimmedLines(own.leading) + own.body;
-      addBody(action, own);
+      if (!chart(action, own.body))
+        addBody(action, own);
     }
   }
   if (!chart(node, trimmedLines(text.body) + trimmedLines(text.tail)))

@@ -223,11 +223,8 @@ private:
     }
     if (name.empty())
       fail(action, fmt::format("an action of the step `{}` has no name", stepName));
-    if (!indicator.empty())
-      context_.leftOut(action, fmt::format("{}: action {}", object_, name),
-                       fmt::format("its indicator variable `{}`", indicator));
-    return fmt::format("{}({}{}{});", name, qualifier.empty() ? "N" : qualifier,
-                       time.empty() ? "" : ", ", time);
+    return fmt::format("{}({}{}{}{}{});", name, qualifier.empty() ? "N" : qualifier,
+                       time.empty() ? "" : ", ", time, indicator.empty() ? "" : ", ", indicator);
   }
 
   void readTransitions(const std::vector<Node> &all) {

@@ -11,6 +11,7 @@
 #include "compiler/syntax/unit_parser.hpp"
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace stc {
@@ -33,6 +34,12 @@ public:
   void task(Grammar::TaskDeclarationContext *context, std::vector<ast::TaskDecl> &out);
   void programInstance(Grammar::ProgramInstanceContext *context,
                        std::vector<ast::ProgramInstanceDecl> &out);
+
+  /// Where variables go that hold literals whose address is taken (`ADR('text')`); null: they are
+  /// left to the checker, which refuses them. Gives the place before.
+  std::vector<ast::VarDecl *> *setLiteralPlaces(std::vector<ast::VarDecl *> *places) {
+    return std::exchange(literalPlaces_, places);
+  }
 
   [[nodiscard]] ast::Name name(const Token &token);
   [[nodiscard]] Interner &interner() { return interner_; }
@@ -124,6 +131,8 @@ private:
   ast::Expr *postfix(Context *context, ast::Expr *base, size_t &at, size_t &nextChild);
   ast::Expr *memberOf(ast::Expr *base, const Token &member);
   ast::Expr *bracketed(ast::Expr *base, Context *inside, size_t &at, size_t end);
+  void placeLiteral(ast::CallExpr *call);
+  ast::TypeExpr *typeOfPlaced(const ast::Literal *literal);
   ast::Expr *indexOf(ast::Expr *base, Context *inside, Span brackets, Span whole);
   void requireArguments(const Context *inside, bool mayEndWithComma);
   ast::Expr *partOf(ast::Expr *base, const Token &member);
@@ -158,6 +167,8 @@ private:
   Arena &arena_;
   Diagnostics &diagnostics_;
   LiteralReader literals_;
+  std::vector<ast::VarDecl *> *literalPlaces_ = nullptr;
+  size_t placedLiterals_ = 0;       ///< of the file
   std::vector<ast::Stmt *> before_; ///< what the statement being built begins with
 };
 

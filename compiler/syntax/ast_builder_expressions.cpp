@@ -331,6 +331,7 @@ Expr *AstBuilder::bracketed(Expr *base, Context *inside, size_t &at, size_t end)
     node->callee = base;
     node->arguments = arguments(inside);
     node->span = whole;
+    placeLiteral(node);
     return node;
   }
   return indexOf(base, inside, {file_, start.begin, whole.end}, whole);

@@ -1,6 +1,10 @@
+#include "compiler/source/identifier.hpp"
 #include "compiler/syntax/ast_builder.hpp"
+#include "compiler/syntax/chart_nodes.hpp"
 
 #include <string>
+
+#include <fmt/format.h>
 
 namespace stc {
 
@@ -107,6 +111,61 @@ Expr *AstBuilder::enumLiteral(const Token &start) {
   node->enumerator = {
       interner_.intern(enumerator), enumerator, {file_, whole.begin + hash + 1, whole.end}};
   return node;
+}
+
+/// The type of a variable that holds the literal; null: only its use says the type. Texts get the
+/// usual length at least, so that a POINTER TO STRING may point to them.
+TypeExpr *AstBuilder::typeOfPlaced(const Literal *literal) {
+  constexpr size_t kUsual = 80;
+  if (literal->literal == LiteralKind::String || literal->literal == LiteralKind::Wstring) {
+    auto *node = arena_.make<StringTypeExpr>();
+    node->span = literal->span;
+    node->wide = literal->literal == LiteralKind::Wstring;
+    if (literal->text.size() > kUsual) {
+      auto *length = arena_.make<Literal>();
+      length->integer = literal->text.size(); // bytes of UTF-8: no fewer than characters
+      length->text = arena_.copy(std::to_string(literal->text.size()));
+      length->span = literal->span;
+      node->length = length;
+    }
+    return node;
+  }
+  const char *type = literal->literal == LiteralKind::Boolean ? "BOOL"
+                     : literal->literal == LiteralKind::Time  ? "TIME"
+                     : literal->literal == LiteralKind::Ltime ? "LTIME"
+                                                              : nullptr;
+  if (type == nullptr && !literal->typeName)
+    return nullptr;
+  auto *node = arena_.make<NamedTypeExpr>();
+  node->span = literal->span;
+  const Name name =
+      literal->typeName ? literal->typeName : Name{interner_.intern(type), type, literal->span};
+  node->path = arena_.copy(std::vector<Name>{name});
+  return node;
+}
+
+/// `ADR('text')` is the address of a variable that holds the text, as CODESYS has it.
+void AstBuilder::placeLiteral(CallExpr *call) {
+  if (literalPlaces_ == nullptr || call->callee->kind != ExprKind::Name ||
+      !equalIgnoringCase(as<NameExpr>(call->callee)->name.text, "adr") ||
+      call->arguments.size() != 1 || call->arguments[0].name ||
+      call->arguments[0].value == nullptr || call->arguments[0].value->kind != ExprKind::Literal)
+    return;
+  auto *literal = as<Literal>(call->arguments[0].value);
+  TypeExpr *type = typeOfPlaced(literal);
+  if (type == nullptr)
+    return;
+  const std::string_view text = arena_.copy(fmt::format("adr__{}", ++placedLiterals_));
+  const Name name{interner_.intern(text), text, literal->span};
+  auto *place = arena_.make<VarDecl>();
+  place->name = name;
+  place->section = Section::Stat;
+  place->type = type;
+  place->init = literal;
+  ChartNodes make(interner_, arena_);
+  make.hide(place);
+  literalPlaces_->push_back(place);
+  call->arguments[0].value = make.variable(name);
 }
 
 } // namespace stc

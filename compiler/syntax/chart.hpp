@@ -28,6 +28,7 @@ struct ChartAction {
   ast::Name name;
   const ChartQualifier *qualifier = nullptr; ///< never null: N when none is written
   ast::Expr *time = nullptr;                 ///< null: none
+  std::vector<ast::Name> indicators;         ///< variables that show what the action tells
 };
 
 struct ChartStep {
@@ -66,6 +67,7 @@ struct ChartTarget {
   std::vector<std::string_view> members; ///< names of methods, actions and properties in its file
   std::string_view pou;                  ///< its name
   bool extends;                          ///< it has variables of another one, too
+  bool ofMember;                         ///< the chart is the body of an ACTION or METHOD
 };
 
 /// Adds the statements of a chart that checkChart() finds right.

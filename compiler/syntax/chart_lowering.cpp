@@ -36,9 +36,13 @@ private:
   std::string hidden(const std::string &what) const {
     return "sfc__" + std::string(target_.pou) + "__" + what;
   }
+  /// Where what lives from call to call is declared: a member keeps it in its block.
+  [[nodiscard]] Section kept() const {
+    return target_.ofMember ? Section::Instance : Section::Local;
+  }
   /// A variable of a step or an action, which the program may read.
   VarDecl *declareOpen(const Name &what, const char *type) {
-    VarDecl *node = make_.declaration(what, {"__SYSTEM", type}, Section::Local);
+    VarDecl *node = make_.declaration(what, {"__SYSTEM", type}, kept());
     node->access = Access::Public;
     target_.variables.push_back(node);
     return node;
@@ -70,6 +74,7 @@ private:
   void steps(Statements &out);
   void start(Statements &out);
   void resetFlags(Statements &out);
+  void indicators(Statements &out);
   void run(const Use &use, bool final, Statements &out);
   void actions(Statements &out);
   Stmt *control(const Use &use);
@@ -129,7 +134,7 @@ void ChartLowering::collect() {
       const auto [at, isNew] = useOf_.emplace(action.name.id, uses_.size());
       if (isNew) {
         const std::string text(action.name.text);
-        const bool free = !target_.extends && isFree("_" + text);
+        const bool free = !target_.extends && !target_.ofMember && isFree("_" + text);
         const Name control =
             make_.name(free ? "_" + text : hidden("action_" + text), action.name.span);
         uses_.push_back({action.name, control, {}});
@@ -158,7 +163,7 @@ void ChartLowering::tip(Statements &out) {
     return;
   const Name last = make_.name(hidden("tip"), chart_.span);
   const Name edge = make_.name(hidden("tipped"), chart_.span);
-  declareBool(last, Section::Local);
+  declareBool(last, kept());
   declareBool(edge, Section::Temp);
   out.push_back(make_.assign(
       make_.variable(edge),
@@ -312,6 +317,21 @@ void ChartLowering::run(const Use &use, bool final, Statements &out) {
   out.push_back(stmt);
 }
 
+/// Nothing becomes of indicator variables here (their actions set them), but they must be BOOL.
+void ChartLowering::indicators(Statements &out) {
+  std::vector<Expr *> all;
+  for (const Use &use : uses_)
+    for (const auto &[step, action] : use.places)
+      for (const Name &one : action->indicators)
+        all.push_back(make_.variable(one));
+  if (all.empty())
+    return;
+  const Name checked = make_.name(hidden("indicators"), chart_.span);
+  declareBool(checked, Section::Temp);
+  for (Expr *one : all)
+    out.push_back(make_.assign(make_.variable({checked.id, checked.text, one->span}), one));
+}
+
 /// The final scans come before what is active now, so that a new step has the last word.
 void ChartLowering::actions(Statements &out) {
   for (const Use &use : uses_) {
@@ -369,6 +389,7 @@ void ChartLowering::lower(Statements &out) {
   if (still != nullptr && !act.empty())
     act = {make_.when(make_.negated(still), act)};
   out.insert(out.end(), act.begin(), act.end());
+  indicators(out);
   currentStep(out);
 }
 

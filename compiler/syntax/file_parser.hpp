@@ -126,6 +126,7 @@ private:
 
   // Sequential function charts.
   [[nodiscard]] bool startsRanked() const;
+  [[nodiscard]] bool startsAfterHead() const;
   [[nodiscard]] bool startsChart(bool begun) const;
   void chart(std::unique_ptr<Chart> &out);
   void finishChart(const ast::PouDecl *node, Content &content);
@@ -135,6 +136,7 @@ private:
   void skipChartPart(uint16_t end);
   ast::Expr *chartExpression(const Token &target, Token sign, bool (*ends)(uint16_t));
   bool chartSteps(std::vector<ast::Name> &out, Token &last);
+  bool chartTimes(ChartAction &action, const Token &target);
   bool chartQualifier(ChartAction &action, const Token &target);
   bool chartAction(ChartStep &step);
   void chartStep(Chart &chart);

@@ -102,7 +102,32 @@ bool FileParser::chartSteps(std::vector<ast::Name> &out, Token &last) {
   }
 }
 
-/// `L, T#5s` of an action.
+/// `, T#5s, done` after the qualifier of an action.
+bool FileParser::chartTimes(ChartAction &action, const Token &target) {
+  while (now_.type == Tok::COMMA) {
+    const Token comma = now_;
+    advance();
+    const bool hasTime =
+        action.qualifier == nullptr || !action.qualifier->timed || action.time != nullptr;
+    if (action.qualifier != nullptr && hasTime && now_.type == Tok::IDENT &&
+        (ahead_.type == Tok::COMMA || ahead_.type == Tok::RPAREN)) {
+      action.indicators.push_back(builder_.name(now_));
+      advance();
+      continue;
+    }
+    if (action.time != nullptr) {
+      chartError("the name of an indicator variable");
+      return false;
+    }
+    action.time = chartExpression(
+        target, comma, [](uint16_t type) { return type == Tok::RPAREN || type == Tok::COMMA; });
+    if (action.time == nullptr)
+      return false;
+  }
+  return true;
+}
+
+/// `L, T#5s, done` of an action.
 bool FileParser::chartQualifier(ChartAction &action, const Token &target) {
   if (now_.type != Tok::IDENT) {
     chartError("a qualifier");
@@ -111,14 +136,8 @@ bool FileParser::chartQualifier(ChartAction &action, const Token &target) {
   const ast::Name written = builder_.name(now_);
   action.qualifier = findQualifier(written.text);
   advance();
-  if (now_.type == Tok::COMMA) {
-    const Token comma = now_;
-    advance();
-    action.time = chartExpression(
-        target, comma, [](uint16_t type) { return type == Tok::RPAREN || type == Tok::COMMA; });
-    if (action.time == nullptr)
-      return false;
-  }
+  if (!chartTimes(action, target))
+    return false;
   if (action.qualifier == nullptr) {
     diagnostics_
         .report(Code::SfcQualifier, written.span,
@@ -269,10 +288,23 @@ bool FileParser::startsRanked() const {
   return isWord(text.substr(std::min(word, text.size()), 4), "from");
 }
 
+/// `STEP Name:` or `TRANSITION FROM` after `ACTION name:`, where the scanner takes the word for a
+/// name: what follows a colon may be a type.
+bool FileParser::startsAfterHead() const {
+  if (ahead_.type != Tok::IDENT)
+    return false;
+  if (isNow("transition"))
+    return isWord(scanner_.text(ahead_), "from");
+  const std::string_view text = scanner_.text();
+  const std::string_view sign = text.substr(std::min(afterBlanks(ahead_.end, false), text.size()));
+  return (isNow("initial_step") || isNow("step")) && sign.starts_with(':') &&
+         !sign.starts_with(":=");
+}
+
 /// `begun`: the chart has a part already. The words of a chart are keywords only before a name.
 bool FileParser::startsChart(bool begun) const {
   if (isChart(now_.type) || (begun && isNow("transition") && ahead_.type == Tok::LPAREN) ||
-      startsRanked())
+      startsRanked() || startsAfterHead())
     return true;
   const bool step = isNow("initial_step") || isNow("step");
   return (step || isNow("transition")) &&
@@ -359,13 +391,15 @@ std::vector<std::string_view> FileParser::membersOf(const ast::PouDecl *node) {
 /// The chart becomes the body.
 void FileParser::finishChart(const ast::PouDecl *node, Content &content) {
   const Chart &chart = *content.chart;
-  const bool may =
-      node->kind == ast::DeclKind::Program || node->kind == ast::DeclKind::FunctionBlock;
+  const bool ofMember = node->kind == ast::DeclKind::Action || node->kind == ast::DeclKind::Method;
+  const bool may = ofMember || node->kind == ast::DeclKind::Program ||
+                   node->kind == ast::DeclKind::FunctionBlock;
   if (!may || !content.statements.empty()) {
     diagnostics_
         .report(Code::SfcPlace, may ? content.statements.front()->span : chart.span,
                 may ? "statements stand beside a sequential function chart"
-                    : "a sequential function chart needs a PROGRAM or FUNCTION_BLOCK",
+                    : "a sequential function chart needs a PROGRAM or FUNCTION_BLOCK, or one of "
+                      "their members",
                 may ? "this belongs to no step" : "its steps must be kept between the calls")
         .help(may ? "put them into an ACTION … END_ACTION that a step names"
                   : "write a FUNCTION_BLOCK and call an instance of it");
@@ -374,7 +408,7 @@ void FileParser::finishChart(const ast::PouDecl *node, Content &content) {
   if (!chartFailed_ && checkChart(chart, content.variables, diagnostics_))
     lowerChart(chart,
                {builder_.interner(), arena_, diagnostics_, content.variables, membersOf(node),
-                node->name.text, !node->base.empty()},
+                node->name.text, !node->base.empty(), ofMember},
                content.statements);
 }
 

@@ -239,6 +239,12 @@ void FileParser::finishBody(ast::PouDecl *node, Content &content) {
 }
 
 void FileParser::content(Content &out, OpenPou *members) {
+  struct Places { // of literals whose address is taken; a member has its own
+    AstBuilder &builder;
+    std::vector<ast::VarDecl *> *before;
+    ~Places() { builder.setLiteralPlaces(before); }
+  };
+  const Places places{builder_, builder_.setLiteralPlaces(&out.variables)};
   bool late = false;
   bool inBody = false;
   // VAR_GLOBAL among the declarations is taken for one of them; the checker says that it must not

@@ -22,6 +22,7 @@ TEST(ChartText, ReadsStepsAndActions) {
   ASSERT_EQ(actions.size(), 4U);
   EXPECT_EQ(actions[0].qualifier, "L");
   EXPECT_EQ(actions[0].time, "times[1, (2)]");
+  EXPECT_EQ(actions[0].indicator, "");
   EXPECT_EQ(actions[1].name, "Note");
   EXPECT_EQ(actions[2].qualifier, "N");
   EXPECT_EQ(actions[3].qualifier, "S");
@@ -62,6 +63,22 @@ TEST(ChartText, LeavesWhatItCannotSay) {
   EXPECT_FALSE(chartText("STEP A: Work(L, T#1s"));
   EXPECT_FALSE(chartText("STEP A: END_STEP TRANSITION (PRIORITY := 16#2) FROM A TO A := b; "
                          "END_TRANSITION"));
+}
+
+/// A time where the qualifier has one; what follows are indicator variables.
+TEST(ChartText, ReadsIndicatorVariables) {
+  const auto chart = chartText("INITIAL_STEP A:\n  a(L, f(1, 2), x , y); b(N, done); c(sd, t);\n"
+                               "END_STEP\nTRANSITION FROM A TO A := TRUE;\nEND_TRANSITION\n");
+  ASSERT_TRUE(chart.has_value());
+  ASSERT_EQ(chart->steps.size(), 1U);
+  const auto &actions = chart->steps[0].actions;
+  ASSERT_EQ(actions.size(), 3U);
+  EXPECT_EQ(actions[0].time, "f(1, 2)");
+  EXPECT_EQ(actions[0].indicator, "x , y");
+  EXPECT_EQ(actions[1].time, "");
+  EXPECT_EQ(actions[1].indicator, "done");
+  EXPECT_EQ(actions[2].time, "t");
+  EXPECT_EQ(actions[2].indicator, "");
 }
 
 } // namespace
