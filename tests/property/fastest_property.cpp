@@ -2,6 +2,7 @@
 // that tries all that can be the fastest.
 #include "runtime/numeric/profile/parabolic.hpp"
 
+#include "tests/property/jerk_model.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace {
 
@@ -18,62 +18,10 @@ using stride::motion::PlanError;
 using stride::motion::planParabolic;
 using stride::motion::Profile;
 using stride::motion::State;
+using stride::test::Model;
+using stride::test::Moment;
+using stride::test::pushed;
 using stride::test::Random;
-
-/// Position, velocity and acceleration, in the model.
-struct Moment {
-  long double time = 0;
-  long double s = 0;
-  long double v = 0;
-  long double a = 0;
-
-  [[nodiscard]] Moment on(long double jerk, long double t) const {
-    return {time + t, s + t * (v + t * (a / 2 + t * jerk / 6)), v + t * (a + t * jerk / 2),
-            a + t * jerk};
-  }
-};
-
-/// A task of the model: all velocities within [low, high], the acceleration within [-fall, rise].
-struct Model {
-  long double low, high, rise, fall, jerk;
-  long double endVelocity;
-  long double distance;
-
-  [[nodiscard]] Model mirrored() const {
-    return {-high, -low, fall, rise, jerk, -endVelocity, -distance};
-  }
-  /// The fastest change to the velocity `to` and no acceleration.
-  [[nodiscard]] Moment changed(const Moment &from, long double to) const {
-    const long double rest = from.v + from.a * std::fabs(from.a) / (2 * jerk);
-    const long double side = to >= rest ? 1 : -1;
-    const long double limit = side > 0 ? rise : fall;
-    const long double a = side * from.a;
-    const long double gain = side * (to - from.v);
-    const long double peak = std::min(limit, std::sqrt(std::max(0.0L, jerk * gain + a * a / 2)));
-    Moment now = from.on(side * jerk, std::max(0.0L, (peak - a) / jerk));
-    const long double missing = side * (to - now.v) - now.a * now.a / (2 * jerk);
-    if (missing > 0 && peak >= limit)
-      now = now.on(0, missing / limit);
-    return now.on(-side * jerk, std::fabs(now.a) / jerk);
-  }
-};
-
-/// How long a motion takes that is pushed up until `part` of the way to the highest velocity
-/// (0 to 1: to the greatest acceleration, to 2: at it), and how far it gets.
-Moment pushed(const Model &model, const Moment &start, long double part) {
-  const long double top = model.high - start.v + start.a * std::fabs(start.a) / (2 * model.jerk);
-  const long double most =
-      start.a < 0 && top <= 0
-          ? 0
-          : std::min(model.rise, std::sqrt(std::max(0.0L, model.jerk * (model.high - start.v) +
-                                                              start.a * start.a / 2)));
-  Moment now =
-      start.on(model.jerk, std::min(part, 1.0L) * std::max(0.0L, most - start.a) / model.jerk);
-  const long double hold = (model.high - now.v - now.a * now.a / (2 * model.jerk)) / model.rise;
-  if (part > 1 && hold > 0)
-    now = now.on(0, (part - 1) * hold);
-  return model.changed(now, model.endVelocity);
-}
 
 /// The shortest time of all that are pushed up first.
 long double shortestPushed(const Model &model, const Moment &start, int grid) {

@@ -143,18 +143,21 @@ struct Limits {
   double jerk;
 
   Limits(const JerkLimits &limits, const Scale &scale) noexcept
-      : velocity(scaled(limits.velocity, scale.velocity)),
-        acceleration(scaled(limits.acceleration, scale.acceleration)),
-        deceleration(scaled(limits.deceleration, scale.acceleration)),
-        jerk(scaled(limits.jerk, scale.acceleration - scale.time, kUnlimitedJerk)) {}
+      : jerk(scaled(limits.jerk, PowerOfTwo(scale.time - scale.acceleration), kUnlimitedJerk)) {
+    const PowerOfTwo perVelocity(-scale.velocity);
+    const PowerOfTwo perAcceleration(-scale.acceleration);
+    velocity = scaled(limits.velocity, perVelocity);
+    acceleration = scaled(limits.acceleration, perAcceleration);
+    deceleration = scaled(limits.deceleration, perAcceleration);
+  }
 
   /// For velocities in the direction of motion.
   [[nodiscard]] Rates ahead() const noexcept { return {acceleration, deceleration, jerk}; }
   [[nodiscard]] Rates stopping() const noexcept { return {deceleration, deceleration, jerk}; }
 
 private:
-  static double scaled(double limit, int exponent, double most = kUnlimited) noexcept {
-    const double value = exact::ldexp(limit, -exponent);
+  static double scaled(double limit, const PowerOfTwo &unit, double most = kUnlimited) noexcept {
+    const double value = unit(limit);
     return value < most ? value : most;
   }
 };
@@ -192,7 +195,7 @@ Scale scaleOf(double distance, const State &start, double endVelocity,
 /// What is rounding of a way in scaled units.
 double noiseOf(const State &start, double target, double way, const Scale &scale) noexcept {
   const double places = exact::larger(exact::fabs(start.position), exact::fabs(target));
-  return 16.0 * kEpsilon * (exact::ldexp(places, -scale.length) + exact::fabs(way));
+  return 16.0 * kEpsilon * (PowerOfTwo(-scale.length)(places) + exact::fabs(way));
 }
 
 PlanError result(bool representable) noexcept {
@@ -281,8 +284,8 @@ PlanError planParabolic(Profile &profile, const State &start, double target, dou
   const Limits scaled(limits, scale);
   Builder builder(profile, scale, start);
   const State &state = builder.state();
-  const double way = exact::ldexp(distance, -scale.length);
-  const double last = exact::ldexp(endVelocity, -scale.velocity);
+  const double way = PowerOfTwo(-scale.length)(distance);
+  const double last = PowerOfTwo(-scale.velocity)(endVelocity);
   const double noise = noiseOf(start, target, way, scale);
   if (scaled.acceleration == scaled.deceleration) {
     Route route;

@@ -77,7 +77,7 @@ double rootOf(const Function &function, double low, double high, double guess) n
         value.at * value.slope / (value.slope * value.slope - 0.5 * value.at * value.bend);
     const double next = q - step;
     // The next step would have three times as many digits.
-    if (exact::fabs(step) <= 0x1p-19 * exact::fabs(next))
+    if (exact::fabs(step) <= 0x1p-17 * exact::fabs(next))
       return next > low ? next < high ? next : high : low;
     q = next > low && next < high ? next : 0.5 * (low + high);
     if (!(high - low > kEpsilon * exact::fabs(q)))
@@ -204,7 +204,7 @@ private:
     double q = roughCubeRoot(half);
     if (mean > 0.0 && q * mean > half)
       q = half / mean;
-    return q;
+    return q - ((q * q + mean) * q - half) / (3.0 * q * q + exact::fabs(mean));
   }
 
   double jerk_;

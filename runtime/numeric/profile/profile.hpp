@@ -57,6 +57,7 @@ enum class PlanError : uint8_t {
   InvalidState,    ///< A position or velocity is not finite.
   InvalidLimit,    ///< A limit is not finite or not greater than zero.
   Unrepresentable, ///< The motion would last longer, or go farther, than a double can say.
+  Blocked,         ///< No motion of the duration that is asked for keeps the limits.
 };
 
 } // namespace stride::motion

@@ -29,17 +29,31 @@ def commit_of(peer):
     return text.stdout.strip()
 
 
-def build(peer, libraries, folder):
-    """Ruckig as its own build makes it by default (-O3), without what asks a server."""
+def check_commit(peer):
+    if commit_of(peer) != COMMIT:
+        sys.exit(f"{peer} is not at {COMMIT}: git -C {peer} checkout {COMMIT}")
+
+
+def libraries_in(build_folder, names, target):
+    """The paths of Stride's libraries; says how to build them if they are not there."""
+    folder = build_folder / "lib"
+    missing = [name for name in names if not (folder / f"libstride_{name}.a").exists()]
+    if missing:
+        sys.exit(f"{folder} lacks {', '.join(missing)}: cmake --build {build_folder} --target {target}")
+    return [folder / f"libstride_{name}.a" for name in names]
+
+
+def build(peer, source, libraries, folder):
+    """The program of `source` with Ruckig as its own build makes it by default (-O3), without what asks a server."""
     objects = []
-    for source in sorted((peer / "src/ruckig").glob("*.cpp")):
-        if source.name == "cloud_client.cpp":
+    for part in sorted((peer / "src/ruckig").glob("*.cpp")):
+        if part.name == "cloud_client.cpp":
             continue
-        objects.append(folder / (source.stem + ".o"))
-        run("g++", "-std=c++20", "-O3", "-DNDEBUG", "-I", peer / "include", "-c", source, "-o", objects[-1])
-    program = folder / "compare_ruckig"
-    run("g++", "-std=c++20", "-O2", "-DNDEBUG", *OURS, "-I", ROOT, "-isystem", peer / "include", HERE / "compare_ruckig.cpp", *objects,
-        *[libraries / f"libstride_{name}.a" for name in LIBRARIES], "-o", program)
+        objects.append(folder / (part.stem + ".o"))
+        run("g++", "-std=c++20", "-O3", "-DNDEBUG", "-I", peer / "include", "-c", part, "-o", objects[-1])
+    program = folder / source.stem
+    run("g++", "-std=c++20", "-O2", "-DNDEBUG", *OURS, "-I", ROOT, "-isystem", peer / "include", source, *objects, *libraries, "-o",
+        program)
     return program
 
 
@@ -49,14 +63,10 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release", help="where Stride has been built")
     parser.add_argument("--moves", type=int, default=100000)
     options = parser.parse_args()
-    if commit_of(options.peer) != COMMIT:
-        sys.exit(f"compare_ruckig.py: {options.peer} is not at {COMMIT}: git -C {options.peer} checkout {COMMIT}")
-    libraries = options.build / "lib"
-    missing = [name for name in LIBRARIES if not (libraries / f"libstride_{name}.a").exists()]
-    if missing:
-        sys.exit(f"compare_ruckig.py: {libraries} lacks {', '.join(missing)}: cmake --build {options.build} --target group_bench")
+    check_commit(options.peer)
+    libraries = libraries_in(options.build, LIBRARIES, "group_bench")
     with tempfile.TemporaryDirectory() as folder:
-        run(build(options.peer.resolve(), libraries, pathlib.Path(folder)), options.moves)
+        run(build(options.peer.resolve(), HERE / "compare_ruckig.cpp", libraries, pathlib.Path(folder)), options.moves)
 
 
 if __name__ == "__main__":
