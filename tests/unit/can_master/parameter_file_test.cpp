@@ -1,7 +1,7 @@
 // A drive's file with parameters: it is read again when the drive begins anew.
 #include "tests/unit/can_master/can_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -5,7 +5,7 @@
 #include "drivers/can/master/master.hpp"
 #include "tests/unit/can_master/fake_bus.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,7 +1,7 @@
 // Drives that are one node: its master and its simulated device.
 #include "tests/unit/can_together/together_scene.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 
 #include <cmath>
 
