@@ -2,7 +2,6 @@
 // Stride: compare_ruckig.py builds this against a checkout of it.
 #include "runtime/numeric/group/group_motion.hpp"
 #include "runtime/numeric/kinematics/any_kinematics.hpp"
-#include "runtime/numeric/profile/planner.hpp"
 
 #include <ruckig/ruckig.hpp>
 
@@ -335,56 +334,6 @@ void overPlaces(int moves) {
   ratios.print("six places with corners of 15, to Ruckig with rests");
 }
 
-/// One axis from any state: the planner of single axes, which blocks of single axes use.
-void oneAxis(int moves, bool passes) {
-  Random random(passes ? 6 : 5);
-  ruckig::Ruckig<1> generator;
-  ruckig::Trajectory<1> trajectory;
-  Ratios ratios;
-  Cost cost;
-  Cost peerCost;
-  int refused = 0;
-  for (int i = 0; i < moves; ++i) {
-    const double v = random.logIn(20, 400);
-    const double a = v * random.logIn(1, 20);
-    const double j = a * random.logIn(2, 50);
-    const double start = random.in(-180, 180);
-    const double acceleration = random.in(-a, a);
-    // It must be able to end before the limit of the velocity.
-    const double room = v - 0.5 * acceleration * acceleration / j;
-    if (!(room > 0))
-      continue;
-    const double velocity = random.in(-1, 1) * room;
-    const double to = start + random.logIn(0.01, 1) * random.in(-180, 180);
-    const double last = passes ? random.in(-v, v) : 0.0;
-    ruckig::InputParameter<1> input;
-    input.current_position[0] = start;
-    input.current_velocity[0] = velocity;
-    input.current_acceleration[0] = acceleration;
-    input.target_position[0] = to;
-    input.target_velocity[0] = last;
-    input.max_velocity[0] = v;
-    input.max_acceleration[0] = a;
-    input.max_jerk[0] = j;
-    const ruckig::Result result =
-        peerCost.of([&] { return generator.calculate(input, trajectory); });
-    stride::motion::Profile profile{};
-    const auto error = cost.of([&] {
-      return planMove(profile, {start, velocity, acceleration}, to, last,
-                      {stride::motion::RampType::Parabolic, v, a, a, j});
-    });
-    if (error != stride::motion::PlanError::None)
-      fail("there is no profile");
-    if (result < 0)
-      ++refused;
-    else
-      ratios.add(profile.duration, trajectory.get_duration());
-  }
-  ratios.print(passes ? "one axis, any state to any velocity" : "one axis, any state to rest");
-  std::fprintf(stderr, "one axis%s: us per plan %.3f, Ruckig %.3f (refused %d)\n",
-               passes ? " that passes" : "", cost.median(), peerCost.median(), refused);
-}
-
 } // namespace
 
 int main(int argc, char **argv) {
@@ -397,8 +346,6 @@ int main(int argc, char **argv) {
   fromRestToRest(moves, false);
   anotherTarget(moves / 50);
   overPlaces(moves / 50);
-  oneAxis(moves, false);
-  oneAxis(moves, true);
   std::fprintf(stderr, "greatest use of limits of velocity and acceleration in cycles: %.9f\n",
                Driven::worst());
 }
