@@ -1,5 +1,6 @@
 // Corners between legs, judged by products of turns in numbers, by differences, and by the legs
 // that they join.
+#include "group_machines.hpp"
 #include "motion_problems.hpp"
 
 #include "runtime/numeric/group/corner.hpp"
@@ -7,7 +8,9 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace {
 
@@ -207,6 +210,94 @@ TEST(GroupCornerOfAxes, ItsSeriesAreThoseOfDifferences) {
             << "axis " << k << " order " << order;
       }
   }
+}
+
+/// A portal that goes along two lines with a corner by distance, cycle by cycle.
+struct TwoLines {
+  Point start, middle, end;
+  double distance; ///< Of the command. [u]
+
+  /// How far a place is beside a line of the given direction through the middle.
+  double beside(const Point &place, const Point &direction) const {
+    const Point way = place - middle;
+    return (way - direction * way.dot(direction)).norm();
+  }
+  Point first() const { return (middle - start).normalized(); }
+  Point second() const { return (end - middle).normalized(); }
+  /// The corner takes half of a line at most.
+  double cut() const {
+    return std::min({distance, 0.5 * (middle - start).norm(), 0.5 * (end - middle).norm()});
+  }
+};
+
+TwoLines randomLines(Random &random, int number) {
+  TwoLines lines{};
+  const double length = random.uniform(20, 60);
+  lines.start = {random.uniform(-50, 50), random.uniform(-50, 50), 7};
+  lines.middle = lines.start + length * randomDirection(random);
+  lines.end = lines.middle + length * random.uniform(0.7, 1.6) * randomDirection(random);
+  const double half = 0.5 * std::min(length, (lines.end - lines.middle).norm());
+  // Below, at and above what the lines have for it.
+  lines.distance = half * (number % 3 == 0 ? random.uniform(0.05, 0.95) : number % 3);
+  return lines;
+}
+
+/// Places of the tool: how many of them are on the lines and in the corner.
+struct Seen {
+  int onLines = 0;
+  int inCorner = 0;
+};
+
+/// Before the distance from the middle the tool is on the first line, after it on the second one,
+/// and in between beside both.
+void look(const TwoLines &lines, const Point &place, Seen &seen) {
+  const double before = -(place - lines.middle).dot(lines.first());
+  const double after = (place - lines.middle).dot(lines.second());
+  const double besideFirst = lines.beside(place, lines.first());
+  const double besideSecond = lines.beside(place, lines.second());
+  const double cut = lines.cut();
+  if (before >= cut || after >= cut) { // where the path turns back, both
+    const double beside = std::min(before >= cut ? besideFirst : 1e9, // [u]
+                                   after >= cut ? besideSecond : 1e9);
+    EXPECT_LE(beside, 1e-9) << before << " before the middle, " << after << " after, cut " << cut;
+    ++seen.onLines;
+  } else if (before < 0.97 * cut && after < 0.97 * cut) {
+    EXPECT_GT(std::min(besideFirst, besideSecond), 1e-9) << before << ", " << after;
+    ++seen.inCorner;
+  }
+}
+
+TEST(GroupCornerDistance, IsKeptAsCommanded) {
+  Random random(4711);
+  Seen seen;
+  for (int i = 0; i < casesOf(150) && !HasFailure(); ++i) {
+    SCOPED_TRACE(testing::Message() << "case " << i);
+    Machine machine = gantry();
+    for (AxisLimits &limits : machine.limits)
+      limits = {300, 3000, 60000, -1e4, 1e4};
+    const TwoLines lines = randomLines(random, i);
+    const Pose poses[] = {poseAt(lines.start, Turn::Identity()),
+                          poseAt(lines.middle, Turn::Identity()),
+                          poseAt(lines.end, Turn::Identity())};
+    const auto group = std::make_unique<GroupMotion>();
+    const double home[kAxes] = {lines.start.x(), lines.start.y(), lines.start.z()};
+    reset(*group, home);
+    for (int k = 0; k < 2; ++k) {
+      Order order{};
+      order.path = {random.uniform(50, 400), 4000, 3000, 80000};
+      order.velocityFactor = order.accelerationFactor = order.jerkFactor = 1;
+      order.transition = Transition::Distance;
+      order.transitionValue = lines.distance;
+      append(*group, drawId(*group), lineLeg(poses[k], poses[k + 1], {}), order);
+    }
+    for (int n = 0; n < 20'000 && group->first < group->next; ++n) {
+      cycle(*group, machine.arm(), {0.001, 1, false, 0, 64, 64});
+      look(lines, {group->axes[0], group->axes[1], group->axes[2]}, seen);
+    }
+    EXPECT_EQ(group->first, group->next);
+  }
+  EXPECT_GT(seen.onLines, casesOf(5000));
+  EXPECT_GT(seen.inCorner, casesOf(3000));
 }
 
 INSTANTIATE_TEST_SUITE_P(AllTurns, GroupCorner,

@@ -85,14 +85,14 @@ Frame<Series> copyOfTool(const Ride &ride, const Series &time) noexcept {
   const ToolMotion &begin = ride.begin;
   const Series since = time - Series(begin.time);
   if (ride.brakes) {
-    const Frame<Series> origin = seriesOf(frameOf(ride.system.origin));
+    Frame<Series> origin = seriesOf(frameOf(ride.system.origin));
     if (!(ride.settling > 0.0))
       return origin;
     const bool rests = since.c[0] >= ride.settling;
     return movedBy(waysToRest(rests ? Series(ride.settling) : since, ride.settling), begin, 1.0,
                    origin);
   }
-  const Frame<Series> tool = toolAfter(ride.system, time - Series(ride.system.tool.time));
+  Frame<Series> tool = toolAfter(ride.system, time - Series(ride.system.tool.time));
   if (since.c[0] >= ride.settling)
     return tool;
   return movedBy(waysThereAndBack(since, ride.settling), begin, -1.0, tool);

@@ -99,6 +99,16 @@ bool differs(const MotionSettings &a, const MotionSettings &b) noexcept {
   return a.kind != b.kind || a.jerk != b.jerk || a.share != b.share || a.lean != b.lean;
 }
 
+bool isStale(const Motion &motion) noexcept {
+  if (motion.session != Session::Seeking && motion.session != Session::Planning)
+    return false;
+  if (motion.changing || !(motion.urgent || motion.refused))
+    return differs(motion.wish, motion.asked);
+  Wish wish = motion.wish;
+  wish.override = motion.asked.override;
+  return differs(wish, motion.asked);
+}
+
 void goAsAsked(Motion &motion) noexcept {
   const int64_t last = lastPiece(motion);
   const MotionSettings before = settingsAt(motion, last);

@@ -440,19 +440,6 @@ void planned(Motion &motion, int32_t budget, int32_t left) noexcept {
   motion.session = Session::None;
 }
 
-/// Whether the session plans for what is not wanted any more. Another override ends one that only
-/// goes on with the path. It does not end one for another wish: an override that a program changes
-/// in every cycle would never act. The newest one is planned for when the session is over.
-bool isStale(const Motion &motion) noexcept {
-  if (motion.session != Session::Seeking && motion.session != Session::Planning)
-    return false;
-  if (motion.changing || !(motion.urgent || motion.refused))
-    return differs(motion.wish, motion.asked);
-  Wish wish = motion.wish;
-  wish.override = motion.asked.override;
-  return differs(wish, motion.asked);
-}
-
 /// See think.
 int32_t thinkFor(Motion &motion, int32_t budget) noexcept {
   int32_t used = 0;

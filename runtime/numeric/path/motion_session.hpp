@@ -47,6 +47,11 @@ inline double timeInPiece(const Motion &motion) noexcept {
 bool differs(const Wish &a, const Wish &b) noexcept;
 bool differs(const MotionSettings &a, const MotionSettings &b) noexcept;
 
+/// Whether the session plans for what is not wanted any more. Another override ends one that only
+/// goes on with the path. It does not end one for another wish: an override that a program changes
+/// in every cycle would never act. The newest one is planned for when the session is over.
+bool isStale(const Motion &motion) noexcept;
+
 /// The law goes as asked from its next piece on.
 void goAsAsked(Motion &motion) noexcept;
 
