@@ -15,6 +15,7 @@
 #include "compiler/syntax/st_text.hpp"
 
 #include <unordered_set>
+#include <utility>
 
 namespace stc::sema {
 
@@ -24,7 +25,7 @@ static void checkArgument(Context &c, Argument &argument, VarSymbol *parameter);
 static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter);
 static void checkOutput(Context &c, Argument &argument, VarSymbol *parameter);
 static void reportMissing(Context &c, CallExpr *expr, PouSymbol *pou,
-                          const std::unordered_set<VarSymbol *> &given);
+                          const std::unordered_set<VarSymbol *> &given, bool inputsOptional);
 
 namespace {
 
@@ -195,6 +196,7 @@ static void reportTooMany(Context &c, const Binding &binding, const Argument &a)
 }
 
 void bindArguments(Context &c, CallExpr *expr, PouSymbol *pou) {
+  const bool inputsOptional = std::exchange(c.inputsOptional, false); // not of calls in arguments
   Binding binding = bindingOf(expr, pou);
   for (Argument &a : expr->arguments) {
     if (!a.name && !binding.isNamed && binding.next >= binding.positional.size()) {
@@ -215,7 +217,7 @@ void bindArguments(Context &c, CallExpr *expr, PouSymbol *pou) {
     checkArgument(c, a, parameter);
   }
   if (!binding.hasFailed)
-    reportMissing(c, expr, pou, binding.given);
+    reportMissing(c, expr, pou, binding.given, inputsOptional);
 }
 
 static bool namesPlace(const Expr *expr) {
@@ -430,7 +432,7 @@ static void checkOutput(Context &c, Argument &argument, VarSymbol *parameter) {
 }
 
 static void reportMissing(Context &c, CallExpr *expr, PouSymbol *pou,
-                          const std::unordered_set<VarSymbol *> &given) {
+                          const std::unordered_set<VarSymbol *> &given, bool inputsOptional) {
   // SUPER^() runs the base's body on the same instance, whose in-outs are bound already.
   const Expr *callee = expr->callee;
   if (callee->kind == ExprKind::Deref)
@@ -443,9 +445,9 @@ static void reportMissing(Context &c, CallExpr *expr, PouSymbol *pou,
   for (VarSymbol *p : pou->parameters()) {
     if (given.contains(p) || p->hidden || (ofBase && p->section == Section::InOut))
       continue;
-    const bool needed =
-        p->section == Section::InOut || ((pou->isFunction() || pou->isMethod()) &&
-                                         p->section == Section::Input && p->decl->init == nullptr);
+    const bool needed = p->section == Section::InOut ||
+                        (!inputsOptional && (pou->isFunction() || pou->isMethod()) &&
+                         p->section == Section::Input && p->decl->init == nullptr);
     if (!needed)
       continue;
     inOut = inOut || p->section == Section::InOut;

@@ -108,7 +108,12 @@ const Type *checkEnabledCall(Context &c, CallExpr *expr, bool asStatement) {
     enable.value = always;
   }
   checkAs(c, enable.value, elementaryType(TypeKind::Boolean), "argument `EN`");
+  // Edition 3 lets a call that names its arguments leave inputs out. Elsewhere that is taken for a
+  // slip, as CODESYS does; EN says which language it is.
+  c.inputsOptional = std::all_of(call->arguments.begin(), call->arguments.end(),
+                                 [](const Argument &a) { return bool(a.name); });
   const Type *result = call->type = checkCall(c, call, asStatement);
+  c.inputsOptional = false;
   if (enabled.value != nullptr)
     checkEnabledOutput(c, enabled.value);
   if (isUntyped(result)) {

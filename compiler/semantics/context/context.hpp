@@ -48,9 +48,11 @@ struct Context {
   std::set<std::pair<const PouSymbol *, Ident>> throughSelf; ///< members named `THIS^.x`
 
   // Modes, set by a ScopeGuard or ModeGuard
-  unsigned loopDepth = 0;                  ///< of loops around the statement that is checked
-  bool programTypes = false;               ///< the type being resolved may be a PROGRAM
-  const ast::Expr *assignTarget = nullptr; ///< is checked as the target of an assignment
+  unsigned loopDepth = 0; ///< of loops around the statement that is checked
+  bool inputsOptional =
+      false;                 ///< of the call to be checked next: it has EN and names its arguments
+  bool programTypes = false; ///< the type being resolved may be a PROGRAM
+  const ast::Expr *assignTarget = nullptr;         ///< is checked as the target of an assignment
   const ast::TypeExpr *openArrayAllowed = nullptr; ///< the type of the VAR_IN_OUT being resolved
 };
 

@@ -295,6 +295,38 @@ TEST(PlcOpenChart, ReadsDrawnBodiesOfTransitions) {
   EXPECT_NE(other.leftOut[0].text.find("nothing in it is assigned to `Stop`"), std::string::npos);
 }
 
+/// A ladder as the body of a transition: its coil has the transition's name.
+TEST(PlcOpenChart, ReadsLaddersOfTransitions) {
+  const Model model =
+      read(step(1, "Start", {11}, true) + transition(11, 1, "<reference name=\"Stop\"/>"),
+           "<transitions><transition name=\"Stop\"><body><LD><leftPowerRail localId=\"90\"/>" +
+               contact(40, "a", {90}) + contact(41, "b", {90}, " negated=\"true\"") +
+               contact(42, "c", {40, 41}) +
+               "<coil localId=\"43\"><connectionPointIn><connection refLocalId=\"42\"/>"
+               "</connectionPointIn><variable>Stop</variable></coil></LD></body></transition>"
+               "</transitions>");
+  EXPECT_NE(model.objects.front().text.find(
+                "TRANSITION Stop FROM Start TO Start := (a OR NOT b) AND c;\n"),
+            std::string::npos)
+      << model.objects.front().text;
+  EXPECT_TRUE(model.leftOut.empty());
+}
+
+/// What an action tells stays with it, after its time.
+TEST(PlcOpenChart, KeepsIndicatorVariables) {
+  const Model model =
+      read(step(1, "Start", {11}, true) +
+           "<actionBlock localId=\"30\"><connectionPointIn><connection refLocalId=\"1\"/>"
+           "</connectionPointIn><action localId=\"31\" qualifier=\"L\" duration=\"T#3s\" "
+           "indicator=\"hot\"><reference name=\"Heat\"/></action><action localId=\"32\" "
+           "indicator=\"full\"><reference name=\"Fill\"/></action></actionBlock>" +
+           transition(11, 1, inlineText("TRUE")));
+  EXPECT_NE(model.objects.front().text.find("  Heat(L, T#3s, hot);\n  Fill(N, full);\n"),
+            std::string::npos)
+      << model.objects.front().text;
+  EXPECT_TRUE(model.leftOut.empty());
+}
+
 TEST(PlcOpenChart, DetectsEdgesOfContacts) {
   Model model = withCondition(contact(40, "a", {90}, " edge=\"falling\""), 40);
   const std::string text = translated(model);
