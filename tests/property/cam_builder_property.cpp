@@ -2,6 +2,7 @@
 // minimisation by random changes of what the builder chose, exactness of what was given.
 #include "runtime/numeric/cam/builder.hpp"
 
+#include "tests/support/cases.hpp"
 #include "tests/support/random.hpp"
 #include "tests/unit/cam/built_cam.hpp"
 
@@ -15,14 +16,6 @@ using namespace stride::cam;
 using namespace stride::test;
 
 namespace {
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kShare = 20;
-#else
-constexpr int kShare = 1;
-#endif
-
-constexpr int casesOf(int cases) { return cases / kShare; }
 
 /// The integral of the squared jerk over all segments, by Gauss-Legendre with five nodes, which is
 /// exact up to degree 9; a piece of degree 7 has 8.

@@ -2,6 +2,7 @@
 // any mode the data follow the curve as closely as their numbers can.
 #include "compiler/assets/cam/cam_source.hpp"
 #include "compiler/source/render.hpp"
+#include "tests/support/cases.hpp"
 #include "tests/support/random.hpp"
 
 #include <algorithm>
@@ -10,14 +11,6 @@
 
 namespace stride::test {
 namespace {
-
-/// Fewer where everything is instrumented.
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kShare = 10;
-#else
-constexpr int kShare = 1;
-#endif
-constexpr int casesOf(int cases) { return cases / kShare; }
 
 using namespace stride::cam;
 using stc::CamElement;

@@ -78,7 +78,7 @@ bool isBlendPiece(const Path &path, uint32_t index) {
 }
 
 TEST(CsyTrajectoryProperty, PlacesAndDirectionsAreContinuous) {
-  for (uint64_t seed = 0; seed < casesOf(2000); ++seed) {
+  for (int seed = 0; seed < casesOf(2000); ++seed) {
     Random random(seed);
     const Path path = randomPath(random);
     const Trajectory &trajectory = *path.trajectory;
@@ -101,7 +101,7 @@ TEST(CsyTrajectoryProperty, PlacesAndDirectionsAreContinuous) {
 }
 
 TEST(CsyTrajectoryProperty, BlendsKeepToTheirCorners) {
-  for (uint64_t seed = 0; seed < casesOf(2000); ++seed) {
+  for (int seed = 0; seed < casesOf(2000); ++seed) {
     Random random(seed);
     const Path path = randomPath(random);
     for (uint32_t i = 0; i < path.trajectory->pieces; ++i) {
@@ -135,7 +135,7 @@ TEST(CsyTrajectoryProperty, BlendsKeepToTheirCorners) {
 }
 
 TEST(CsyTrajectoryProperty, WaysAreThoseOfAnIntegration) {
-  for (uint64_t seed = 0; seed < casesOf(500); ++seed) {
+  for (int seed = 0; seed < casesOf(500); ++seed) {
     Random random(seed);
     const Path path = randomPath(random);
     double whole = 0;
@@ -159,7 +159,7 @@ TEST(CsyTrajectoryProperty, WaysAreThoseOfAnIntegration) {
 }
 
 TEST(CsyTrajectoryProperty, SpeedsAreTheGreatestThatTheAxesAllow) {
-  for (uint64_t seed = 0; seed < casesOf(500); ++seed) {
+  for (int seed = 0; seed < casesOf(500); ++seed) {
     Random random(seed);
     const Path path = randomPath(random);
     const SlaveLimits limits{{random.uniform(1, 9), random.uniform(1, 9), random.uniform(1, 9)},
@@ -191,7 +191,7 @@ TEST(CsyTrajectoryProperty, SpeedsAreTheGreatestThatTheAxesAllow) {
 TEST(CsyTrajectoryProperty, MovesKeepTheMastersLimits) {
   auto speeds = std::make_unique<Speeds>();
   auto move = std::make_unique<ModulatedMove>();
-  for (uint64_t seed = 0; seed < casesOf(500); ++seed) {
+  for (int seed = 0; seed < casesOf(500); ++seed) {
     Random random(seed);
     const Path path = randomPath(random);
     computeSpeeds(*path.table, *path.trajectory, {{5, 7, 9}, {20, 30, 40}}, *speeds);
@@ -232,7 +232,7 @@ TEST(CsyTrajectoryProperty, MovesKeepTheMastersLimits) {
 /// Cams are linear between their points, so that a slave is on the path at them, and as far from it
 /// between as the curvature lets a chord be.
 TEST(CsyTrajectoryProperty, CamsAreThePathAtTheirPoints) {
-  for (uint64_t seed = 0; seed < casesOf(1000); ++seed) {
+  for (int seed = 0; seed < casesOf(1000); ++seed) {
     Random random(seed);
     const Path path = randomPath(random);
     const Trajectory &trajectory = *path.trajectory;
@@ -266,7 +266,7 @@ TEST(CsyTrajectoryProperty, CamsAreThePathAtTheirPoints) {
 TEST(CsyTrajectoryProperty, BrakingKeepsToItsDeceleration) {
   auto speeds = std::make_unique<Speeds>();
   auto move = std::make_unique<ModulatedMove>();
-  for (uint64_t seed = 0; seed < casesOf(500); ++seed) {
+  for (int seed = 0; seed < casesOf(500); ++seed) {
     Random random(seed);
     const Path path = randomPath(random);
     computeSpeeds(*path.table, *path.trajectory, {{5, 7, 9}, {20, 30, 40}}, *speeds);
@@ -300,7 +300,7 @@ TEST(CsyTrajectoryProperty, BrakingKeepsToItsDeceleration) {
 
 TEST(CsyTrajectoryProperty, NoTableBreaksAnything) {
   Path path;
-  for (uint64_t seed = 0; seed < casesOf(20000); ++seed) {
+  for (int seed = 0; seed < casesOf(20000); ++seed) {
     Random random(seed);
     std::vector<int16_t> words(static_cast<size_t>(random.below(200)));
     for (int16_t &word : words)

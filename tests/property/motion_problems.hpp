@@ -4,6 +4,7 @@
 
 #include "runtime/numeric/profile/planner.hpp"
 
+#include "tests/support/cases.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -15,15 +16,6 @@
 #include <string>
 
 namespace stride::test {
-
-/// How many random cases a test takes: fewer where everything is instrumented.
-constexpr int casesOf(int cases) {
-#ifdef __SANITIZE_ADDRESS__
-  return cases / 10;
-#else
-  return cases;
-#endif
-}
 
 inline constexpr motion::RampType kRampTypes[] = {
     motion::RampType::Trapezoid, motion::RampType::Sigmoid, motion::RampType::Parabolic,

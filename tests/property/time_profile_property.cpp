@@ -2,6 +2,7 @@
 // cubic course, numeric integration, reproduction of polynomials.
 #include "runtime/numeric/profile/time_profile.hpp"
 
+#include "tests/support/cases.hpp"
 #include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 
@@ -22,12 +23,7 @@ using stride::motion::State;
 using stride::motion::TimePiece;
 using stride::motion::TimePoint;
 using stride::motion::TimeProfile;
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kShare = 20;
-#else
-constexpr int kShare = 1;
-#endif
+using stride::test::casesOf;
 
 struct Problem {
   State start;
@@ -202,7 +198,7 @@ double timeOf(const Problem &p, size_t point) {
 
 TEST(TimeProfileProperty, PositionsAreTheCubicCourse) {
   Random random(7);
-  for (int round = 0; round < 40000 / kShare; ++round) {
+  for (int round = 0; round < casesOf(40000); ++round) {
     const Problem p = random.problem(round % 100 == 0 ? 30 : 6);
     TimeProfile profile;
     ASSERT_EQ(planPositions(profile, p.start, p.points.data(), static_cast<int>(p.points.size())),
@@ -218,7 +214,7 @@ TEST(TimeProfileProperty, PositionsAreTheCubicCourse) {
 
 TEST(TimeProfileProperty, PositionsAreReachedWithoutJumps) {
   Random random(11);
-  for (int round = 0; round < 100000 / kShare; ++round) {
+  for (int round = 0; round < casesOf(100000); ++round) {
     const Problem p = random.problem(round % 20 == 0 ? 100 : 12);
     TimeProfile profile;
     ASSERT_EQ(planPositions(profile, p.start, p.points.data(), static_cast<int>(p.points.size())),
@@ -239,7 +235,7 @@ TEST(TimeProfileProperty, PositionsAreReachedWithoutJumps) {
 
 TEST(TimeProfileProperty, ParabolasAreReproduced) {
   Random random(13);
-  for (int round = 0; round < 50000 / kShare; ++round) {
+  for (int round = 0; round < casesOf(50000); ++round) {
     Problem p = random.problem(20);
     const State s = p.start;
     TimeProfile profile;
@@ -278,7 +274,7 @@ TEST(TimeProfileProperty, ParabolasAreReproduced) {
 
 TEST(TimeProfileProperty, VelocitiesStayBetweenTheirPoints) {
   Random random(29);
-  for (int round = 0; round < 50000 / kShare; ++round) {
+  for (int round = 0; round < casesOf(50000); ++round) {
     const Problem p = random.problem(12);
     TimeProfile profile;
     ASSERT_EQ(planVelocities(profile, p.start, p.points.data(), static_cast<int>(p.points.size())),
@@ -314,7 +310,7 @@ template <class Pick> double integral(const TimeProfile &profile, Pick of) {
 
 TEST(TimeProfileProperty, VelocitiesAreReachedAndIntegrated) {
   Random random(17);
-  for (int round = 0; round < 100000 / kShare; ++round) {
+  for (int round = 0; round < casesOf(100000); ++round) {
     const Problem p = random.problem(round % 20 == 0 ? 100 : 12);
     TimeProfile profile;
     ASSERT_EQ(planVelocities(profile, p.start, p.points.data(), static_cast<int>(p.points.size())),
@@ -333,7 +329,7 @@ TEST(TimeProfileProperty, VelocitiesAreReachedAndIntegrated) {
 
 TEST(TimeProfileProperty, AccelerationsAreLinesAndIntegrated) {
   Random random(19);
-  for (int round = 0; round < 100000 / kShare; ++round) {
+  for (int round = 0; round < casesOf(100000); ++round) {
     const Problem p = random.problem(round % 20 == 0 ? 100 : 12);
     TimeProfile profile;
     ASSERT_EQ(
@@ -362,7 +358,7 @@ TEST(TimeProfileProperty, AccelerationsAreLinesAndIntegrated) {
 
 TEST(TimeProfileProperty, DoesNotDependOnTheUnits) {
   Random random(23);
-  for (int round = 0; round < 20000 / kShare; ++round) {
+  for (int round = 0; round < casesOf(20000); ++round) {
     const Problem p = random.problem(20);
     Problem q = p;
     const double factor = std::ldexp(1.0, random.below(60) - 30);
