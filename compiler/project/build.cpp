@@ -23,31 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The dialect's semantics depend on these: DESIGN, section 4.
-constexpr const char *kFixedFlags[] = {"-std=c++20",        "-fPIC",
-                                       "-fwrapv",           "-fno-strict-aliasing",
-                                       "-fno-finite-loops", "-fno-delete-null-pointer-checks",
-                                       "-ffp-contract=off", "-fvisibility=hidden",
-                                       "-fno-rtti"};
-
 // In the folder of emitted sources: the names of those that Stride has written there.
 constexpr std::string_view kEmittedList = ".stride-sources";
 constexpr uintmax_t kMaxListBytes = 16U << 20U; // of whatever a project ships under that name
-
-std::vector<std::string> compileFlags(const Installation &installation, bool debug) {
-  std::vector<std::string> flags(std::begin(kFixedFlags), std::end(kFixedFlags));
-  if (debug)
-    flags.insert(flags.end(), {"-O0", "-g"});
-  else
-    // Aligned, so that the speed of a loop does not depend on what lies before it; with line
-    // tables and all frames, so that an exception can say where it came from; a part of a function
-    // that is inlined into the rest of it would look like a recursion there.
-    flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls", "-fno-partial-inlining",
-                               "-falign-functions=64", "-falign-loops=32"});
-  // The installation has the last word: one with sanitizers does not optimise.
-  flags.insert(flags.end(), installation.compileFlags.begin(), installation.compileFlags.end());
-  return flags;
-}
 
 // Names in `#include "…"` of a generated text.
 std::vector<std::string> includesOf(std::string_view text) {
@@ -174,7 +152,7 @@ private:
       name = options_.target + "-g++";
     toolchain_.compiler = findProgram(name);
     if (!toolchain_.compiler.empty())
-      return true;
+      return findLauncher(project_.config().launcher, toolchain_, diagnostics_);
     Diagnostic &d = diagnostics_.report(Code::ToolchainMissing, {},
                                         fmt::format("the C++ compiler `{}` was not found", name));
     if (options_.target.empty())
@@ -300,7 +278,10 @@ private:
   }
 
   std::vector<std::string> compileCommand(const Unit &unit) const {
-    std::vector<std::string> command = {toolchain_.compiler.string()};
+    std::vector<std::string> command;
+    if (!toolchain_.launcher.empty())
+      command.push_back(toolchain_.launcher.string());
+    command.push_back(toolchain_.compiler.string());
     command.insert(command.end(), toolchain_.compileFlags.begin(), toolchain_.compileFlags.end());
     const std::string include = toolchain_.installation.include.string();
     // The same bytes wherever sources, cache and Stride lie.
@@ -318,7 +299,8 @@ private:
       jobs.push_back(
           {compileCommand(unit), unit.source->title, sources_.string(), work_->path().string()});
     const std::vector<JobResult> results = runJobs(
-        jobs, [&](size_t job) { progress("compiling " + jobs[job].title, job, jobs.size() + 1); });
+        jobs, [&](size_t job) { progress("compiling " + jobs[job].title, job, jobs.size() + 1); },
+        project_.config().buildJobs);
     bool good = true;
     for (size_t i = 0; i < jobs.size(); ++i)
       if (results[i].status > 0) {

@@ -65,6 +65,10 @@ public:
       config_.filesAnywhere = files.boolean("anywhere", false);
       config_.filesDelay = static_cast<uint32_t>(files.integer("delay", 1));
     }
+    for (const CheckedSection &build : top.sections("build", diagnostics_)) {
+      config_.launcher = static_cast<Launcher>(build.choice("launcher", 0));
+      config_.buildJobs = static_cast<unsigned>(build.integer("jobs", 0));
+    }
     groups_ = top.table().find("axes_group");
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);

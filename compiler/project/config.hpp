@@ -143,6 +143,9 @@ struct IoConfig {
   AppConfig::IoDevice device;
 };
 
+/// [build] launcher: a program that starts the C++ compiler, here or elsewhere.
+enum class Launcher : uint8_t { None, Ccache, Distcc, Icecc };
+
 /// The configuration of one project. Without stride.toml it is empty but for the name.
 struct ProjectConfig {
   std::string name;
@@ -157,6 +160,8 @@ struct ProjectConfig {
   std::string filesRoot;                ///< [files] root; empty: not given
   bool filesAnywhere = false;           ///< [files] anywhere
   uint32_t filesDelay = 1;              ///< [files] delay
+  Launcher launcher = Launcher::None;   ///< [build] launcher
+  unsigned buildJobs = 0;               ///< [build] jobs; 0: as many as there are processors
   std::vector<Define> defines;          ///< for `{IF defined (…)}`
   std::vector<ConfigName> sources;      ///< folders and files; empty: the project's folder
   std::optional<LibraryInfo> library;   ///< [library]: the project is one

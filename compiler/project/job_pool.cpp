@@ -100,9 +100,10 @@ int waitFor(pid_t pid) {
 } // namespace
 
 std::vector<JobResult> runJobs(const std::vector<Job> &jobs,
-                               const std::function<void(size_t)> &started) {
+                               const std::function<void(size_t)> &started, unsigned limit) {
   std::vector<JobResult> results(jobs.size(), JobResult{-1, {}});
-  const size_t limit = std::max(1U, std::thread::hardware_concurrency());
+  if (limit == 0)
+    limit = std::max(1U, std::thread::hardware_concurrency());
   std::vector<Running> running;
   size_t next = 0;
   bool failed = false;

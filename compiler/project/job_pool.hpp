@@ -22,11 +22,12 @@ struct JobResult {
   std::string output; ///< what it printed on both streams
 };
 
-/// Runs all jobs, at most as many at a time as there are processors, and waits for them. After a
-/// failure no further job is started (its status is then -1). `started` is called before each job
-/// with its index.
+/// Runs all jobs, at most `limit` (0: as many as there are processors) at a time, and waits for
+/// them. After a failure no further job is started (its status is then -1). `started` is called
+/// before each job with its index.
 [[nodiscard]] std::vector<JobResult> runJobs(const std::vector<Job> &jobs,
-                                             const std::function<void(size_t)> &started = {});
+                                             const std::function<void(size_t)> &started = {},
+                                             unsigned limit = 0);
 
 /// The command as a shell would take it.
 [[nodiscard]] std::string shellQuoted(const std::vector<std::string> &command);

@@ -85,6 +85,14 @@ constexpr std::array kFilesParameters = {
     whole("delay", 0, 100000, "cycles"),
 };
 
+constexpr std::array<Choice, 3> kLaunchers = {{{"ccache", static_cast<int64_t>(Launcher::Ccache)},
+                                               {"distcc", static_cast<int64_t>(Launcher::Distcc)},
+                                               {"icecc", static_cast<int64_t>(Launcher::Icecc)}}};
+constexpr std::array kBuildParameters = {
+    choice("launcher", kLaunchers),
+    whole("jobs", 1, 1000),
+};
+
 constexpr std::array kTaskParameters = {
     identifier("name").needed(),
     choice("kind", kTaskKinds),
@@ -173,6 +181,7 @@ constexpr SectionSchema kRetain = {"retain", "the retained data", "retain",
                                    false,    kRetainParameters,   {}};
 constexpr SectionSchema kFiles = {"files", "the access to files", "files",
                                   false,   kFilesParameters,      {}};
+constexpr SectionSchema kBuild = {"build", "the build", "build", false, kBuildParameters, {}};
 constexpr SectionSchema kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr SectionSchema kAxis = {"axis", "an axis", "axis", true, kAxisParameters, {}};
 constexpr SectionSchema kCncStart = {"start", "the start",         "cnc.start",
@@ -215,9 +224,9 @@ struct TopSection {
                  &kImage,         &kRetain, &kFiles,
                  &kFormat,        &kTask,   &anyBusSection(),
                  &anyIoSection(), &kAxis,   &axesGroupSchema(),
-                 &csySchema(),    &kCnc},
+                 &csySchema(),    &kCnc,    &kBuild},
         top{"", "stride.toml", "", false, {}, sections} {}
-  std::array<const SectionSchema *, 14> sections;
+  std::array<const SectionSchema *, 15> sections;
   SectionSchema top;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <string_view>
 #include <unistd.h>
 
@@ -14,10 +15,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// The dialect's semantics depend on these: DESIGN, section 4.
+constexpr const char *kFixedFlags[] = {"-std=c++20",        "-fPIC",
+                                       "-fwrapv",           "-fno-strict-aliasing",
+                                       "-fno-finite-loops", "-fno-delete-null-pointer-checks",
+                                       "-ffp-contract=off", "-fvisibility=hidden",
+                                       "-fno-rtti"};
+
 // Variables with which GCC finds other headers or parts of itself (GCC manual, section 3.21).
 constexpr const char *kVariables[] = {
     "CPATH",        "C_INCLUDE_PATH",  "CPLUS_INCLUDE_PATH", "COMPILER_PATH",
     "LIBRARY_PATH", "GCC_EXEC_PREFIX", "SOURCE_DATE_EPOCH",  "LD_RUN_PATH"};
+
+// By Launcher.
+constexpr const char *kLauncherPrograms[] = {"", "ccache", "distcc", "icecc"};
 
 // Parts of the compiler, as `-print-prog-name` knows them.
 constexpr const char *kParts[] = {"cc1plus", "as", "ld", "ld.lld", "collect2"};
@@ -130,12 +141,43 @@ fs::path findProgram(const std::string &name) {
   }
 }
 
+bool findLauncher(Launcher launcher, Toolchain &toolchain, Diagnostics &diagnostics) {
+  if (launcher == Launcher::None)
+    return true;
+  const std::string name = kLauncherPrograms[static_cast<size_t>(launcher)];
+  toolchain.launcher = findProgram(name);
+  if (!toolchain.launcher.empty())
+    return true;
+  diagnostics
+      .report(Code::ToolchainMissing, {},
+              fmt::format("`{}`, the launcher that stride.toml names, was not found", name))
+      .help(fmt::format(
+          "install it (Debian: apt-get install {}), or remove `launcher` from [build]", name));
+  return false;
+}
+
+std::vector<std::string> compileFlags(const Installation &installation, bool debug) {
+  std::vector<std::string> flags(std::begin(kFixedFlags), std::end(kFixedFlags));
+  if (debug)
+    flags.insert(flags.end(), {"-O0", "-g"});
+  else
+    // Aligned, so that the speed of a loop does not depend on what lies before it; with line
+    // tables and all frames, so that an exception can say where it came from; a part of a function
+    // that is inlined into the rest of it would look like a recursion there.
+    flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls", "-fno-partial-inlining",
+                               "-falign-functions=64", "-falign-loops=32"});
+  // The installation has the last word: one with sanitizers does not optimise.
+  flags.insert(flags.end(), installation.compileFlags.begin(), installation.compileFlags.end());
+  return flags;
+}
+
 ContentHash identityOf(const Toolchain &toolchain, const UserCache &cache, const fs::path &work) {
   std::error_code error;
   ContentHash hash;
   hash.add(fileStamp(fs::canonical(toolchain.compiler, error)));
   for (const std::string &flag : toolchain.compileFlags)
     hash.add(flag);
+  hash.add(toolchain.launcher.filename().string()); // another machine may have compiled it
   for (const char *variable : kVariables)
     if (const char *value = std::getenv(variable))
       hash.add(variable).add(value);

@@ -2,9 +2,11 @@
 #define STRIDE_COMPILER_PROJECT_TOOLCHAIN_HPP
 // The C++ compiler and everything besides the generated code that a result depends on.
 
+#include "compiler/project/config.hpp"
 #include "compiler/project/installation.hpp"
 #include "compiler/project/user_cache.hpp"
 #include "compiler/source/content_hash.hpp"
+#include "compiler/source/diagnostic.hpp"
 
 #include <filesystem>
 #include <string>
@@ -15,12 +17,20 @@ namespace stc {
 struct Toolchain {
   Installation installation;
   std::filesystem::path compiler; ///< absolute
+  std::filesystem::path launcher; ///< what starts it, absolute; empty: nothing
   /// All but include folders, mapped paths, input and output.
   std::vector<std::string> compileFlags;
 };
 
 /// Path of a program as execvp finds it, absolute; or empty.
 [[nodiscard]] std::filesystem::path findProgram(const std::string &name);
+
+/// Sets the tool chain's launcher to the one that stride.toml names. False when it is not
+/// installed, which has been reported.
+[[nodiscard]] bool findLauncher(Launcher launcher, Toolchain &toolchain, Diagnostics &diagnostics);
+
+/// The flags that generated code is compiled with; `debug`: quick to compile and for the debugger.
+[[nodiscard]] std::vector<std::string> compileFlags(const Installation &installation, bool debug);
 
 /// What identifies the tool chain: the compiler with its parts (its stages, assembler, linker), the
 /// flags, the environment that changes what it does, Stride's headers and all headers of the system

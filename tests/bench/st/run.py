@@ -19,7 +19,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-# As compiler/project/build.cpp has them.
+# As compiler/project/toolchain.cpp has them.
 FLAGS = ["-std=c++20", "-fPIC", "-fwrapv", "-fno-strict-aliasing", "-fno-finite-loops",
          "-fno-delete-null-pointer-checks", "-ffp-contract=off", "-fvisibility=hidden", "-fno-rtti",
          "-O2", "-g1", "-fno-optimize-sibling-calls", "-fno-partial-inlining", "-falign-functions=64",
