@@ -2,6 +2,7 @@
 #include "carry_fixture.hpp"
 
 #include <chrono>
+#include <gmock/gmock-more-matchers.h>
 
 namespace stride::test {
 size_t allocations();

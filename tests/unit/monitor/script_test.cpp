@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <gmock/gmock-more-matchers.h>
 #include <limits>
 
 namespace stride::test {

@@ -3,6 +3,7 @@
 #include "tests/unit/monitor/served_app.hpp"
 
 #include <cstring>
+#include <gmock/gmock-more-matchers.h>
 
 namespace stride::test {
 size_t allocations();
