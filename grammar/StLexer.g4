@@ -221,8 +221,9 @@ DOC_COMMENT   : '///' ~[\r\n]* -> channel(HIDDEN) ;
 LINE_COMMENT  : '//' ~[\r\n]* -> channel(HIDDEN) ;
 BLOCK_COMMENT : '/*' .*? '*/' -> channel(HIDDEN) ;
 NESTED_COMMENT : '(*' ( NESTED_COMMENT | '(' ~[*] | ~[(*] | '*' ~[)] )*? '*'* '*)' -> channel(HIDDEN) ;
-// {attribute 'name' := 'value'}, {external}, …
-PRAGMA     : '{' ( '\'' ~['\r\n]* '\'' | '"' ~["\r\n]* '"' | ~['"}] )* '}' -> channel(HIDDEN) ;
+// {attribute 'name' := 'value'}, {external}, …; a quote after a letter or digit begins no text: {info don't}
+PRAGMA     : '{' ( [A-Za-z0-9_\u0080-\uFFFF]+ ~[A-Za-z0-9_}\u0080-\uFFFF] | '\'' ~['\r\n]* '\'' | '"' ~["\r\n]* '"' | ~['"}A-Za-z0-9_\u0080-\uFFFF] )* [A-Za-z0-9_\u0080-\uFFFF]* '}'
+             -> channel(HIDDEN) ;
 WHITESPACE : [ \t\r\n\f\u000B\u001A\u00A0]+ -> channel(HIDDEN) ;
 
 // ---- pieces
