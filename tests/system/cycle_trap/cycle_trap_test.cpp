@@ -61,11 +61,10 @@ TEST_P(CycleTrap, NothingIsAllocatedOrLockedInACycle) {
   EXPECT_THAT(run.err, Not(HasSubstr("TRAP")));
   EXPECT_EQ(run.exitCode, 0) << run.err;
   // In virtual time what programs ask of files is done within their cycle, so that runs repeat.
-  for (const char *name :
-       {"/admin_write_params_to_file", "/axis_diagnostic_log", "/cam_files", "/cnc_queue_files",
-        "/cnc_read_file", "/cnc_compile", "/cnc_preprocess", "/nc_coordinates", "/nc_read_file2",
-        "/nc_jumps", "/can_own_pdos", "/can_parameter_file", "/can_parameter_reload",
-        "/sercos_parameters"})
+  for (const char *name : {"/admin_write_params_to_file", "/axis_diagnostic_log", "/cam_files",
+                           "/cnc_queue_files", "/cnc_read_file", "/cnc_compile", "/cnc_preprocess",
+                           "/nc_coordinates", "/nc_read_file2", "/nc_jumps", "/can_own_pdos",
+                           "/can_parameter_file", "/can_parameter_reload", "/sercos_parameters"})
     if (GetParam().ends_with(name))
       return;
   const ProcessResult sim = host({"sim", "--for", "5s", "--quiet"});
