@@ -305,4 +305,37 @@ INSTANTIATE_TEST_SUITE_P(AllTurns, GroupCorner,
                                            Turns::AboutOneAxis, Turns::ThereAndBack,
                                            Turns::AboutTwoAxes));
 
+/// Along a corner between two lines the tool is about as fast as the motion along its way, so that
+/// a seam is welded, or glue laid, evenly.
+TEST(GroupCornerOfLines, IsGoneThroughEvenly) {
+  using stride::numeric::norm;
+  double worst = 0;
+  for (int i = 0; i < casesOf(500); ++i) {
+    Random random(9000U + static_cast<unsigned>(i));
+    const double turn = random.uniform(0, 0.5 * M_PI);
+    const double side = random.uniform(-M_PI, M_PI);
+    Pose poses[3]{};
+    for (Pose &pose : poses)
+      stride::group::setRows(pose.turn, Matrix<double>::Identity());
+    const double first = random.magnitude(1, 2.5);
+    const double second = random.magnitude(1, 2.5);
+    poses[1].place = {first, 0, 0};
+    poses[2].place =
+        poses[1].place + Vector3{second * std::cos(turn), second * std::sin(turn) * std::cos(side),
+                                 second * std::sin(turn) * std::sin(side)};
+    const double cut = 0.5 * std::min(first, second) * random.uniform(0.01, 1);
+    const Corner corner =
+        toolCorner(lineLeg(poses[0], poses[1], {}), cut, lineLeg(poses[1], poses[2], {}), cut);
+    for (int n = 0; n <= 200; ++n) {
+      PathPlace place;
+      placeAt(corner, growing(corner.length * n / 200, 1.0), place);
+      const double speed =
+          norm({place.tool.place(0).c[1], place.tool.place(1).c[1], place.tool.place(2).c[1]});
+      worst = std::max(worst, std::fabs(speed - 1));
+      EXPECT_NEAR(speed, 1, 0.0025) << "case " << i << ", turn " << turn << ", at " << n;
+    }
+  }
+  printf("the tool's velocity changes by %.5f at most\n", worst);
+}
+
 } // namespace
