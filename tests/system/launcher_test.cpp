@@ -2,7 +2,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/text.hpp"
 
-#include <gmock/gmock.h>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 #include <arpa/inet.h>
@@ -169,7 +169,9 @@ TEST_F(Launcher, DistccGivesTheSameBytes) {
                                       {"DISTCC_BACKOFF_PERIOD", "0"},
                                       state});
   ASSERT_EQ(result.exitCode, 0) << result.err << readFile(scratch_.path() / "server");
+#ifndef __SANITIZE_ADDRESS__ // which writes the names of sources into objects
   EXPECT_TRUE(application() == here);
+#endif
   EXPECT_THAT(readFile(scratch_.path() / "server"), HasSubstr("COMPILE_OK"));
 }
 
