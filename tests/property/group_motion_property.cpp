@@ -392,8 +392,9 @@ TEST(GroupMotion, KeepsLimitsAndArrives) {
   printf("%d of %d met an obstacle; the tool's path at %lld places, in corners at %lld\n", failed,
          cases, static_cast<long long>(looked), static_cast<long long>(corners));
   EXPECT_GE(looked, int64_t{1000} * cases);
-  if (cases >= 100) // the first quarter has none that is looked at
+  if (cases >= 100) { // the first quarter has none that is looked at
     EXPECT_GE(corners, int64_t{5} * cases);
+  }
   EXPECT_LE(failed, cases / 5);
 }
 
