@@ -2,15 +2,17 @@
 """Chooses a part of a build's tests: every N-th, and those of what was changed last.
 
 usage: part.py BUILD K/N|none [--changed COMMIT [--most N]]
-       part.py BUILD K/N --turns [--changed COMMIT]
+       part.py BUILD K/N|none --turns [--changed COMMIT]
 
-The tests of a build are dealt to N parts: executables by the number of their sources, so that the parts take the same
-time, other tests by a hash of their names. `none` is no part, for what --changed adds alone. Prints the targets that part K (0 ..) needs, one a line, and writes BUILD/part.txt, which
-`ctest -I` reads. With --changed there are also, from whatever part: the executables whose own sources differ from
-COMMIT, and for each library with such sources the smallest executable that links it; with --most no more of them than
-that, the last changed first.
-With --turns it is all tests, only that those with the label `turns` are dealt to N parts, without those whose executable or golden
-program differs from COMMIT: they are in every part.
+The tests of a build are dealt to N parts. From four parts on each has tests of one kind only, so that it does not build
+what others need: those of the runtime, those that link parts of the compiler, those that start `stride`. Within a kind
+executables are dealt by the number of their sources, so that the parts take the same time, other tests by a hash of
+their names. `none` is no part, for what --changed adds alone. Prints the targets that part K (0 ..) needs, one a line,
+and writes BUILD/part.txt, which `ctest -I` reads. With --changed there are also, from other parts of the same kind: the
+executables whose own sources differ from COMMIT, and for each library with such sources the smallest executable that
+links it; with --most no more of them than that, the last changed first.
+With --turns it is all tests, only that those with the label `turns` are dealt to N parts (`none`: no part of them), without
+those whose executable or golden program differs from COMMIT: they are in every part.
 """
 import argparse
 import json
@@ -23,7 +25,9 @@ import zlib
 from tidy import ROOT, names_since, sources_of
 
 OBJECT = re.compile(r"-o (\S+?)/CMakeFiles/([^/]+)\.dir/")
-GOLDEN = ["golden_runner", "stride_programs"]
+PROGRAMS = "stride_programs"
+GOLDEN = ["golden_runner", PROGRAMS]
+KINDS = {"runtime": 4, "compiler": 2, PROGRAMS: 3}  # of nine parts
 
 
 def own_sources(build):
@@ -38,11 +42,11 @@ def own_sources(build):
 
 
 def archives(build):
-    """The names of the libraries that each executable below tests/ links."""
+    """The names of the libraries that each executable below tests/ links, and PROGRAMS if it starts them."""
     text = (build / "build.ninja").read_text(encoding="utf-8").replace("$\n", "")
     links = {}
     for name, inputs in re.findall(r"^build tests/(\S+): CXX_EXECUTABLE_LINKER\S* (.*)$", text, flags=re.M):
-        links[name] = set(re.findall(r"lib/lib(\w+)\.a", inputs))
+        links[name] = set(re.findall(r"lib/lib(\w+)\.a", inputs)) | {PROGRAMS}.intersection(inputs.split())
     return links
 
 
@@ -103,6 +107,33 @@ def deal(executables, sources, parts):
     return {name: turn[place % len(turn)] for place, name in enumerate(order)}
 
 
+def kinds_of(links, sources):
+    """The kind of each executable."""
+    compiler = {target for target, own in sources.items() if any(name.startswith(("compiler/", "grammar/")) for name in own)}
+    return {name: PROGRAMS if PROGRAMS in linked else "compiler" if linked & compiler else "runtime"
+            for name, linked in links.items()}
+
+
+def parts_of(parts):
+    """The parts of each kind; where they are too few for that, all kinds are in all of them."""
+    if parts < 4:
+        return {kind: range(parts) for kind in KINDS}
+    ends = [0]
+    for share in KINDS.values():
+        ends.append(ends[-1] + share)
+    places = [round(end * parts / ends[-1]) for end in ends]
+    return {kind: range(*places[number:number + 2]) for number, kind in enumerate(KINDS)}
+
+
+def deal_kinds(kinds, sources, parts):
+    """The part of each executable."""
+    dealt = {}
+    for kind, places in parts_of(parts).items():
+        own = [name for name, each in kinds.items() if each == kind]
+        dealt.update({name: places[part] for name, part in deal(own, sources, len(places)).items()})
+    return dealt
+
+
 def in_turns(build, part, parts, commit):
     """All tests, of those with the label `turns` one part and what was changed."""
     listing = json.loads(subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], capture_output=True,
@@ -115,8 +146,10 @@ def in_turns(build, part, parts, commit):
     changed = {pathlib.PurePosixPath(name).parts[3].removesuffix(".st") for name in names
                if name.startswith(("tests/golden/programs/", "tests/golden/projects/"))}
     touched = set().union(*(touched_by(name, sources, executables) for name in names)) if names else set()
+    turn = {name: zlib.crc32(("docs" if name.startswith("docs.") else name).encode()) % parts  # these need each other
+            for name in labelled}
     return [(number, name, target) for number, name, target in all_tests
-            if name not in labelled or zlib.crc32(name.encode()) % parts == part or target in touched
+            if name not in labelled or turn[name] == part or target in touched
             or name.startswith("golden.") and name.rpartition(".")[2] in changed], len(all_tests)
 
 
@@ -145,10 +178,14 @@ def main():
     all_tests = tests(options.build)
     executables = {target for _, _, target in all_tests if target}
     sources = own_sources(options.build)
-    lately = changed_last(options.build, options.changed, executables, sources, options.most) if options.changed else set()
-    dealt = deal(executables, sources, parts)
+    kinds = kinds_of({name: linked for name, linked in archives(options.build).items() if name in executables}, sources)
+    dealt = deal_kinds(kinds, sources, parts)
+    places = parts_of(parts)
+    near = [name for name, kind in kinds.items() if part < 0 or part in places[kind]]
+    lately = changed_last(options.build, options.changed, near, sources, options.most) if options.changed else set()
+    others = places[PROGRAMS]
     chosen = [(number, name, target) for number, name, target in all_tests
-              if target in lately or (dealt[target] if target else zlib.crc32(name.encode()) % parts) == part]
+              if target in lately or (dealt[target] if target else others[zlib.crc32(name.encode()) % len(others)]) == part]
     if not chosen:
         sys.exit("part.py: there are no tests in this part")
     write_part(options.build, chosen)
