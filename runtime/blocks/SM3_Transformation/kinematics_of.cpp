@@ -301,6 +301,8 @@ Outcome KinematicsOf::setTool(const Frame<double> &tool) {
   if (outcome_ != Outcome::Done)
     return outcome_;
   if (isOwn_) {
+    if (!exact::isfinite(tool.place.sum() + tool.turn.sum()))
+      return Outcome::WrongTool;
     own_.hasTool = true;
     own_.tool = tool;
     own_.toolBack = inverted(tool);
