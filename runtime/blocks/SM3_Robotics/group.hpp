@@ -47,6 +47,7 @@ struct Request {
   bool relative;
   int16_t system;            ///< SMC_COORD_SYSTEM
   int16_t bufferMode;        ///< MC_BUFFER_MODE
+  int16_t transitionMode;    ///< MC_TRANSITION_MODE
   double position[kArmAxes]; ///< Of axes, or a pose by X, Y, Z, A, B, C. [u], [°]
   int16_t orientationMode;   ///< SMC_ORIENTATION_MODE
   double torqueFactor;       ///< Of a movement; nothing depends on it.

@@ -4,9 +4,11 @@
 
 #include "runtime/axis/axis_ref.hpp"
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
+#include "runtime/blocks/SM3_Robotics/tool_led.hpp"
 #include "runtime/numeric/group/kept_path.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
+#include "st/SM3_Robotics/MC_TRANSITION_MODE.h"
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
 #include "st/SM3_Robotics/SMC_GROUP_ADDITIONAL_MODE.h"
@@ -49,6 +51,9 @@ int16_t wrongInput(const Request &request) noexcept {
       (!exact::isPositive(path.velocity) || !exact::isPositive(path.acceleration) ||
        !exact::isPositive(path.deceleration) || !exact::isPositive(path.jerk)))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+  if (request.transitionMode < decl::MC_TRANSITION_MODE__TMNone ||
+      request.transitionMode > decl::MC_TRANSITION_MODE__TMCornerDistance)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_TRANSITION;
   if (order.transition != group::Transition::None && !exact::isPositive(order.transitionValue))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_TRANSITION;
   for (const double position : request.position)
@@ -81,17 +86,7 @@ int16_t axesOfTool(const GroupRef &group, const GroupArm &arm, const Request &re
   kinematics::Configuration configuration = kinematics.configurationOf(ends.from);
   if (request.kind == RequestKind::Direct && group.bConfiguration != 0)
     __builtin_memcpy(&configuration, &group.stConfiguration, sizeof configuration);
-  const Outcome outcome = kinematics.inverse(target, configuration, ends.from, ends.to);
-  if (outcome != Outcome::Done)
-    return kinematics::errorOf(outcome);
-  // What the kinematics cannot choose of a pose it does not look at; of its place it must reach
-  // all.
-  constexpr double kNear = 1e-6;
-  Frame<double> reached;
-  (void)kinematics.forward(ends.to, reached);
-  const double far = (reached.place - target.place).norm();
-  return far <= kNear * kinematics.reach() ? int16_t{0}
-                                           : error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
+  return axesFor(arm.arm, target, configuration, ends.from, ends.to);
 }
 
 /// Where a movement ends that is no arc. An SMC_ERROR.
@@ -142,7 +137,7 @@ group::MoreAxes moreAxesOf(const Ends &ends) noexcept {
   return more;
 }
 
-int16_t linearLeg(const GroupArm &arm, const Ends &ends, group::Leg &leg) {
+int16_t linearLeg(const GroupArm &arm, Ends &ends, group::Leg &leg) {
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
   Frame<double> from;
@@ -151,7 +146,7 @@ int16_t linearLeg(const GroupArm &arm, const Ends &ends, group::Leg &leg) {
   if (arm.arm.kinematics.forward(ends.to, to) != Outcome::Done)
     return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
   leg = group::lineLeg(group::poseOf(from), group::poseOf(to), moreAxesOf(ends));
-  return 0;
+  return settleLine(arm.arm, leg, ends);
 }
 
 /// The leg of a request from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
@@ -187,6 +182,9 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
                                     : legOf(group, arm, request, ends, leg);
       wrong != 0)
     return wrong;
+  if (group::leadsTool(leg) && (first || !carried))
+    if (const int16_t wrong = whyNotFrom(arm.arm, ends.from); wrong != 0)
+      return wrong;
   if (!areWithinLimits(arm, ends, kArmAxes, arm.arm.more) ||
       (!carried && !areWithinLimits(arm, ends, 0, arm.arm.joints)))
     return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;

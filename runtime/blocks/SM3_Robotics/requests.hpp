@@ -103,6 +103,10 @@ uint64_t failedMovement(const GroupState &state) noexcept;
 /// that is refused: an SMC_ERROR.
 void bindTriggers(GroupRef &group, uint64_t cycle, uint64_t movement, int16_t refusal) noexcept;
 
+/// Where too many triggers are remembered, those of movements that wait to be continued go: they
+/// may never be.
+void makeRoomForTrigger(GroupState &state) noexcept;
+
 /// Finds where on a movement its triggers are.
 void locateTriggers(GroupState &state, const group::Arm &arm, uint64_t movement,
                     const group::Leg &leg) noexcept;
