@@ -117,8 +117,10 @@ void decl::MC_SetCoordinateTransform::body__(::stride::Ctx &ctx__) {
       return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
     if (!robotics::isFinite(CoordTransform))
       return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
-    if (CoordSystem == decl::SMC_COORD_SYSTEM__MCS && group.bOwns != 0)
-      return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+    if (CoordSystem == decl::SMC_COORD_SYSTEM__MCS &&
+        (robotics::isInUse(group, decl::SMC_COORD_SYSTEM__PCS_1) ||
+         robotics::isInUse(group, decl::SMC_COORD_SYSTEM__PCS_2)))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_PCS_STILL_IN_USE;
     if (robotics::isInUse(group, CoordSystem))
       return error::SMC_ERROR__SMC_AXIS_GROUP_PCS_STILL_IN_USE;
     if (index > 0)

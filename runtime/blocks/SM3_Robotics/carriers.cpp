@@ -232,7 +232,8 @@ bool isInUse(const GroupRef &group, int16_t system) noexcept {
   if (carrier == 0 || group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled)
     return false;
   const GroupState &state = stateOf(group);
-  if (state.rides == carrier || (state.leaves == carrier && !group::isStill(state.motion.left)))
+  if (state.suspendedIn == carrier || state.rides == carrier ||
+      (state.leaves == carrier && !group::isStill(state.motion.left)))
     return true;
   for (int64_t k = state.firstRequest; k < state.nextRequest; ++k)
     if (carrierOf(group, requestAt(state, k)) == carrier)
@@ -245,7 +246,7 @@ int32_t carrierOf(const GroupRef &group, const Request &request) noexcept {
     return 0;
   if (request.system == decl::SMC_COORD_SYSTEM__TCS)
     return stateOf(group).rides;
-  return carrierOf(group, request.system);
+  return carrierOf(group, request.system) == request.carrier ? request.carrier : 0;
 }
 
 void changeSystem(GroupRef &group, const GroupArm &arm, int32_t carrier, const Request &request) {
@@ -276,8 +277,8 @@ int16_t carriedLeg(GroupRef &group, const GroupArm &arm, const Request &request,
   Frame<double> system = kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0));
   if (request.system == decl::SMC_COORD_SYSTEM__TCS)
     system = from;
-  else if (state.rides == 0 && !systemInMachine(group, request.system, system))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+  else if (state.rides == 0)
+    system = group::frameOf(request.frame);
   const group::Pose end = group::poseOf(targetIn(system, request, request.position, from));
   if (request.kind == RequestKind::Circular) {
     const Frame<double> aux = targetIn(system, request, request.aux, from);

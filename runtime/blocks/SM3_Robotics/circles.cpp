@@ -39,11 +39,12 @@ int16_t errorOf(ArcFault fault) noexcept {
 }
 
 /// The pose at coordinates of a request; in ACS where the axes bring the tool. An SMC_ERROR.
-int16_t poseAt(const GroupRef &group, const GroupArm &arm, const Request &request,
-               const double (&coordinates)[kArmAxes], const Ends &ends, const Frame<double> &begin,
-               Frame<double> &pose) {
-  if (request.system != decl::SMC_COORD_SYSTEM__ACS)
-    return targetFrame(group, request, coordinates, begin, pose);
+int16_t poseAt(const GroupArm &arm, const Request &request, const double (&coordinates)[kArmAxes],
+               const Ends &ends, const Frame<double> &begin, Frame<double> &pose) {
+  if (request.system != decl::SMC_COORD_SYSTEM__ACS) {
+    pose = targetFrame(request, coordinates, begin);
+    return 0;
+  }
   double axes[kAxes];
   for (int32_t k = 0; k < kAxes; ++k)
     axes[k] = k < arm.arm.joints ? (request.relative ? ends.from[k] : 0.0) + coordinates[k]
@@ -95,8 +96,7 @@ int16_t arcLeg(const Request &request, const group::Pose &from, const Vector3 &a
   return errorOf(fault);
 }
 
-int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
-                    group::Leg &leg) {
+int16_t circularLeg(const GroupArm &arm, const Request &request, Ends &ends, group::Leg &leg) {
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
   Frame<double> begin;
@@ -105,10 +105,9 @@ int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &r
   if (const Outcome outcome = arm.arm.kinematics.forward(ends.from, begin);
       outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
-  if (const int16_t wrong = poseAt(group, arm, request, request.aux, ends, begin, aux); wrong != 0)
+  if (const int16_t wrong = poseAt(arm, request, request.aux, ends, begin, aux); wrong != 0)
     return wrong;
-  if (const int16_t wrong = poseAt(group, arm, request, request.position, ends, begin, target);
-      wrong != 0)
+  if (const int16_t wrong = poseAt(arm, request, request.position, ends, begin, target); wrong != 0)
     return wrong;
   group::MoreAxes more;
   for (int32_t k = 0; k < kMoreAxes; ++k) {

@@ -242,16 +242,15 @@ int16_t axesAt(Ctx &ctx, const decl::MC_GroupSetPosition &block, const GroupRef 
       axes[k] = (request.relative ? axes[k] : 0.0) + request.position[k];
     return 0;
   }
+  if (const int16_t wrong = noteSystem(group, request); wrong != 0)
+    return wrong;
   const GroupArm arm(ctx, group);
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
   Frame<double> begin;
-  Frame<double> target;
   if (const Outcome outcome = arm.arm.kinematics.forward(axes, begin); outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
-  if (const int16_t wrong = targetFrame(group, request, request.position, begin, target);
-      wrong != 0)
-    return wrong;
+  const Frame<double> target = targetFrame(request, request.position, begin);
   double from[kAxes];
   __builtin_memcpy(from, axes, sizeof from);
   return axesFor(arm.arm, target, arm.arm.kinematics.configurationOf(from), from, axes);

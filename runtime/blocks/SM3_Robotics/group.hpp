@@ -61,6 +61,8 @@ struct Request {
   double jerk;          ///< Likewise. [u/s^3]
   bool forgets;         ///< Halt: what it aborts cannot be continued.
   Tool tool;            ///< When it was asked for.
+  group::Pose frame;    ///< Of `system` in the machine, likewise; not of ACS and TCS.
+  int32_t carrier;      ///< Which moving system that was: 1 or 2, PCS_1 or PCS_2; 0: none.
   ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Likewise.
 };
 
@@ -82,9 +84,10 @@ struct GroupState {
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
   Tool tool;                       ///< Of the movements.
-  uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
-  uint64_t refused;   ///< The last cycle, plus 1, in which a movement was refused in its own call.
-  bool interrupting;  ///< It comes to rest to be continued later.
+  uint64_t resumable;  ///< The last cycle, plus 1, in which errors were to be resumable.
+  uint64_t refused;    ///< The last cycle, plus 1, in which a movement was refused in its own call.
+  bool interrupting;   ///< It comes to rest to be continued later.
+  int32_t suspendedIn; ///< In which moving system movements wait to be continued, as `rides`.
   ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Of the movements.
   double orientationLag;                             ///< Behind the system that is followed. [°]
   bool hasReached;               ///< That has been reached since it is followed.

@@ -79,10 +79,7 @@ int16_t axesOfTool(const GroupRef &group, const GroupArm &arm, const Request &re
   Frame<double> begin;
   if (const Outcome outcome = kinematics.forward(ends.from, begin); outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
-  Frame<double> target;
-  if (const int16_t wrong = targetFrame(group, request, request.position, begin, target);
-      wrong != 0)
-    return wrong;
+  const Frame<double> target = targetFrame(request, request.position, begin);
   kinematics::Configuration configuration = kinematics.configurationOf(ends.from);
   if (request.kind == RequestKind::Direct && group.bConfiguration != 0)
     __builtin_memcpy(&configuration, &group.stConfiguration, sizeof configuration);
@@ -153,7 +150,7 @@ int16_t linearLeg(const GroupArm &arm, Ends &ends, group::Leg &leg) {
 int16_t legOf(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
               group::Leg &leg) {
   if (request.kind == RequestKind::Circular)
-    return circularLeg(group, arm, request, ends, leg);
+    return circularLeg(arm, request, ends, leg);
   if (request.kind == RequestKind::Jog)
     return jogLeg(group, arm, request, ends, leg);
   if (const int16_t wrong = findEnd(group, arm, request, ends); wrong != 0)
@@ -336,20 +333,29 @@ Frame<double> targetIn(const Frame<double> &system, const Request &request,
   return target;
 }
 
-int16_t targetFrame(const GroupRef &group, const Request &request,
-                    const double (&coordinates)[kArmAxes], const Frame<double> &begin,
-                    Frame<double> &target) {
-  const bool inTool = request.system == decl::SMC_COORD_SYSTEM__TCS;
-  Frame<double> system = begin;
-  if (!inTool && !systemInMachine(group, request.system, system))
+int16_t noteSystem(const GroupRef &group, Request &request) noexcept {
+  request.carrier = carrierOf(group, request.system);
+  if (request.system == decl::SMC_COORD_SYSTEM__ACS ||
+      request.system == decl::SMC_COORD_SYSTEM__TCS)
+    return 0;
+  Frame<double> frame;
+  if (!systemInMachine(group, request.system, frame))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  target = targetIn(system, request, coordinates, begin);
+  request.frame = group::poseOf(frame);
   return 0;
+}
+
+Frame<double> targetFrame(const Request &request, const double (&coordinates)[kArmAxes],
+                          const Frame<double> &begin) {
+  const bool inTool = request.system == decl::SMC_COORD_SYSTEM__TCS;
+  return targetIn(inTool ? begin : group::frameOf(request.frame), request, coordinates, begin);
 }
 
 int16_t enqueue(GroupRef &group, Request &request) noexcept {
   GroupState &state = stateOf(group);
   if (const int16_t wrong = wrongInput(request); wrong != 0)
+    return wrong;
+  if (const int16_t wrong = noteSystem(group, request); wrong != 0)
     return wrong;
   if (request.kind != RequestKind::Halt && !canRide(request) &&
       carrierOf(group, request.system) != 0)
@@ -390,8 +396,10 @@ void takeRequests(GroupRef &group, GroupArm &arm) {
 }
 
 void abortAll(GroupState &state, bool all) noexcept {
-  if (all)
+  if (all) {
     group::abortInterrupted(state.motion);
+    state.suspendedIn = 0;
+  }
   if (!state.motion.abandoned) { // else it has been told already what can be continued
     state.abortedRequest = state.firstRequest;
     state.abortedEnd = state.nextRequest;

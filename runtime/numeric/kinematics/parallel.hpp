@@ -57,8 +57,8 @@ struct TripodLinear {
   double innerRadius; ///< circle of the plate on which the rods end [u]
   double rod;         ///< length of the rods [u]
   double lean;        ///< of the rails against upright, at most a quarter turn; positive: they come
-               ///< inwards on the way down [rad]
-  double firstAngle; ///< where the first rail is, from x towards y [rad]
+                      ///< inwards on the way down [rad]
+  double firstAngle;  ///< where the first rail is, from x towards y [rad]
 
   double reach() const noexcept { return rod; }
   Posture postureOf(const double *) const noexcept { return {}; }
