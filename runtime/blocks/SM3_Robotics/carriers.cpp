@@ -253,6 +253,7 @@ void changeSystem(GroupRef &group, const GroupArm &arm, int32_t carrier, const R
   GroupState &state = stateOf(group);
   if (state.rides == carrier)
     return;
+  state.referenced = state.lastAccepted;
   state.leaves = state.rides;
   state.rides = carrier;
   state.hasReached = false;

@@ -29,6 +29,7 @@ void takeAxes(GroupRef &group) noexcept {
     AxisRef &axis = axisAt(group, i);
     axis.stQueue.uiCount = 0;
     group.aulOwner.v[i] = axis::takeAxis(axis);
+    stateOf(group).zero[i] = axis.fOffsetPosition;
     axis.nAxisState = axis::state::kSynchronized;
     // The group begins to move in the next cycle.
     axis::writeSetPoint(axis, {axis.fSetPosition, 0.0, 0.0});
@@ -74,7 +75,9 @@ int16_t problemOf(const GroupRef &group) noexcept {
       continue;
     if (!axis::isPowered(axis))
       return error::SMC_ERROR__SMC_AXIS_GROUP_AXIS_NOT_FOLLOWING;
-    if (!axis::ownsAxis(axis, group.aulOwner.v[i]))
+    // Set positions of before a shift (MC_SetPosition) would be others for the drive.
+    if (!axis::ownsAxis(axis, group.aulOwner.v[i]) ||
+        axis.fOffsetPosition != stateOf(group).zero[i])
       return error::SMC_ERROR__SMC_AXIS_GROUP_INTERRUPTED_BY_SINGLE_AXIS;
   }
   return 0;

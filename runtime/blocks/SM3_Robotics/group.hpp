@@ -75,6 +75,8 @@ struct GroupState {
   int64_t abortedEnd;     ///< And the first one after them.
   int16_t error[group::kOutcomes]; ///< Why movements have failed, by id: SMC_ERROR.
   double end[kAxes];               ///< Axes where the movements end that have been taken. [u]
+  double zero[kAxes];              ///< Where the zero points of the group's axes are, by their
+                                   ///< numbers in the group, since it owns them. [u]
   double deceleration;             ///< Of the present stop. [u/s^2]
   double jerk;                     ///< Likewise. [u/s^3]
   double accelerationPart;         ///< Likewise: see group::GroupCommand.
@@ -83,6 +85,7 @@ struct GroupState {
   group::Pose endPose;             ///< Where these end, in the path's system, if that moves.
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
+  uint64_t referenced;             ///< The movement before the system was changed last.
   Tool tool;                       ///< Of the movements.
   uint64_t resumable;  ///< The last cycle, plus 1, in which errors were to be resumable.
   uint64_t refused;    ///< The last cycle, plus 1, in which a movement was refused in its own call.

@@ -196,6 +196,16 @@ int16_t jogLeg(const GroupRef &group, const GroupArm &arm, const Request &reques
   return 0;
 }
 
+/// What has become of the movement: another one may have ended it since the last call.
+static void followJog(decl::SMC_GroupJog2 &block, const GroupState &state) noexcept {
+  if (block.stBlock.bRunning == 0)
+    return;
+  const group::Outcome outcome = group::outcomeOf(state.motion, block.stBlock.ulId);
+  block.stBlock.bRunning = goesOn(outcome) && outcome != group::Outcome::Interrupted;
+  if (outcome == group::Outcome::Failed)
+    setError(block, state.error[block.stBlock.ulId % group::kOutcomes]);
+}
+
 static void runJog(Ctx &ctx, decl::SMC_GroupJog2 &block) {
   if (block.AxisGroup == nullptr) {
     setError(block, block.Enable != 0 ? kNoGroup : int16_t{0});
@@ -212,14 +222,10 @@ static void runJog(Ctx &ctx, decl::SMC_GroupJog2 &block) {
     changed = changed || way != block.aiOld.v[k];
     block.aiOld.v[k] = way;
   }
+  followJog(block, stateOf(group));
   if (changed)
     begin(ctx, block, group, any);
-  if (block.stBlock.bRunning != 0) {
-    const group::Outcome outcome = group::outcomeOf(stateOf(group).motion, block.stBlock.ulId);
-    block.stBlock.bRunning = goesOn(outcome) && outcome != group::Outcome::Interrupted;
-    if (outcome == group::Outcome::Failed)
-      setError(block, stateOf(group).error[block.stBlock.ulId % group::kOutcomes]);
-  }
+  followJog(block, stateOf(group));
   if (block.Enable == 0 && block.stBlock.bRunning == 0)
     setError(block, 0);
   ::st::SM3_Transformation::CONFIGDATA stands;
