@@ -107,6 +107,9 @@ TEST(NonsenseProperty, MeasuresAreRefusedOrGiveNumbers) {
   int driven = 0;
   for (int n = 0; n < 20000 && !::testing::Test::HasFailure(); ++n) {
     const AnyKinematics any = wild.kinematics();
+    if (any.joints() > kMostJoints) {
+      EXPECT_EQ(any.check(), Outcome::WrongCoupling);
+    }
     if (any.check() != Outcome::Done) {
       ++refused;
       continue;

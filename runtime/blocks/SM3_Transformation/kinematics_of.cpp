@@ -243,6 +243,10 @@ Outcome join(const sm::KinematicParts &parts, AnyKinematics &kinematics, int &hi
     kinematics.arm = ArmKind::Gantry3;
   if (kinematics.arm == ArmKind::None)
     return Outcome::NotSet;
+  if (kinematics.joints() > kMostJoints) { // of blocks that programs derive from the library's
+    kinematics = {};
+    return Outcome::WrongCoupling;
+  }
   const int armJoints = tableOf(kinematics.arm).joints;
   if (parts.eArm == sm::KinematicArm__NoPart)
     hidden = armJoints;

@@ -399,6 +399,8 @@ double AnyKinematics::reach() const {
 Outcome AnyKinematics::check() const {
   if (arm == ArmKind::None)
     return Outcome::NotSet;
+  if (joints() > kMostJoints)
+    return Outcome::WrongCoupling;
   const ArmTable &table = tableOf(arm);
   const int handMeasures = hand == HandKind::None ? 0 : tableOf(hand).measures;
   if (!areMeasures(armMeasure, table.measures) || !areMeasures(handMeasure, handMeasures) ||
