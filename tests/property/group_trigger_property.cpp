@@ -409,4 +409,35 @@ TEST(GroupTrigger, PlanesAreWhereTheToolComesIntoThem) {
   EXPECT_GT(crossed, 300);
 }
 
+/// A plane through a place; its normal vector is turned so that the distance is not negative.
+Plane planeThrough(Random &random, const Vector3 &place) {
+  Plane plane{};
+  plane.normal = randomVector(random, 1);
+  plane.normal = plane.normal * (1 / stride::numeric::norm(plane.normal));
+  plane.distance = stride::numeric::dot(plane.normal, place);
+  if (plane.distance < 0)
+    plane = {plane.normal * -1.0, -plane.distance};
+  return plane;
+}
+
+TEST(GroupTrigger, EndsOfLegsAreInPlanesThroughThem) {
+  Random random(20261128);
+  const Machine machine = gantry();
+  const Arm arm = machine.arm();
+  for (int n = 0; n < 20000 && !::testing::Test::HasFailure(); ++n) {
+    SCOPED_TRACE(n);
+    const KnownLeg known = randomLeg(random);
+    EXPECT_EQ(wayInPlane(arm, known.leg, planeThrough(random, known.at(0))), 0);
+    const Plane last = planeThrough(random, known.at(1));
+    const double way = wayInPlane(arm, known.leg, last);
+    ASSERT_GE(way, 0);
+    const double height =
+        stride::numeric::dot(last.normal, known.at(way / known.leg.length)) - last.distance;
+    EXPECT_LT(std::abs(height), 1e-9);
+    if (known.leg.kind == LegKind::Line) {
+      EXPECT_NEAR(way, known.leg.length, 1e-9 * known.leg.length);
+    }
+  }
+}
+
 } // namespace

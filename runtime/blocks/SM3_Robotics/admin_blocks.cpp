@@ -49,6 +49,7 @@ void decl::MC_GroupDisable::body__(::stride::Ctx &ctx__) {
     if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby)
       return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
     ::stride::group::abortInterrupted(robotics::stateOf(group).motion);
+    robotics::endTriggers(robotics::stateOf(group));
     group.eState = decl::SMC_AXIS_GROUP_STATE__GroupDisabled;
     return 0;
   });
@@ -114,8 +115,12 @@ void decl::MC_SetCoordinateTransform::body__(::stride::Ctx &ctx__) {
     const int32_t index = robotics::settableSystem(CoordSystem);
     if (index < 0)
       return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-    if (CoordSystem == decl::SMC_COORD_SYSTEM__MCS && group.bOwns != 0)
-      return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+    if (!robotics::isFinite(CoordTransform))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
+    if (CoordSystem == decl::SMC_COORD_SYSTEM__MCS &&
+        (robotics::isInUse(group, decl::SMC_COORD_SYSTEM__PCS_1) ||
+         robotics::isInUse(group, decl::SMC_COORD_SYSTEM__PCS_2)))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_PCS_STILL_IN_USE;
     if (robotics::isInUse(group, CoordSystem))
       return error::SMC_ERROR__SMC_AXIS_GROUP_PCS_STILL_IN_USE;
     if (index > 0)

@@ -25,27 +25,29 @@ double positionOf(const Carrier &carrier) noexcept {
   return carrier.bActual != 0 ? carrier.pAxis->fActPosition : carrier.pAxis->fSetPosition;
 }
 
-/// How far the axis has gone in a cycle: the shorter way round, if it is modulo. [u]
-double travelOf(const Carrier &carrier, double position) noexcept {
-  const double travel = position - carrier.fAxis;
+/// How far the axis has gone in a cycle, in which it goes about as far as `expected`: of whole
+/// turns nothing else is known. A shift of its zero point (MC_SetPosition) is no motion. [u]
+double travelOf(const Carrier &carrier, double position, double expected) noexcept {
   const AxisRef &axis = *carrier.pAxis;
+  const double travel = position - carrier.fAxis - (axis.fOffsetPosition - carrier.fOffset);
   const double period = axis.fPositionPeriod;
   if (axis.iMovementType != 0 || !(period > 0.0))
     return travel;
-  return travel - period * exact::floor(travel / period + 0.5);
+  return travel - period * exact::floor((travel - expected) / period + 0.5);
 }
 
 void look(Carrier &carrier, double cycle) noexcept {
   const AxisRef &axis = *carrier.pAxis;
   const double position = positionOf(carrier);
-  carrier.fWay += travelOf(carrier, position);
+  const double velocity = carrier.bActual != 0 ? axis.fActVelocity : axis.fSetVelocity;
+  carrier.fWay += travelOf(carrier, position, 0.5 * (carrier.fVelocity + velocity) * cycle);
   carrier.fAxis = position;
+  carrier.fOffset = axis.fOffsetPosition;
   if (carrier.bActual == 0) {
-    carrier.fVelocity = axis.fSetVelocity;
+    carrier.fVelocity = velocity;
     carrier.fAcceleration = axis.fSetAcceleration;
     return;
   }
-  const double velocity = axis.fActVelocity;
   carrier.fAcceleration = (velocity - carrier.fVelocity) / cycle;
   carrier.fVelocity = velocity;
 }
@@ -148,6 +150,10 @@ int32_t carrierOf(const GroupRef &group, int16_t system) noexcept {
   return carrier.pAxis != nullptr || carrier.pMaster != nullptr ? index : 0;
 }
 
+int16_t systemNumber(int32_t carrier) noexcept {
+  return carrier == 1 ? decl::SMC_COORD_SYSTEM__PCS_1 : decl::SMC_COORD_SYSTEM__PCS_2;
+}
+
 void lookAtCarriers(Ctx &ctx, GroupRef &group) {
   const double cycle = group.apAxis.v[0]->fTaskCycle;
   for (int32_t i = 1; i <= kCarriers; ++i) {
@@ -186,12 +192,15 @@ int16_t setCarrier(GroupRef &group, int16_t system, const Carrier &on) {
     return wrong;
   if (on.pAxis == nullptr)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  if (!isFinite(on.stOrigin) || !isFinite(on.stObject))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
   for (int32_t i = 0; i < group.uiAxes; ++i)
     if (group.apAxis.v[i] == on.pAxis) // it would follow itself
       return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
   Carrier &carrier = carrierAt(group, settableSystem(system));
   carrier = on;
   carrier.fAxis = positionOf(on);
+  carrier.fOffset = on.pAxis->fOffsetPosition;
   carrier.fVelocity = on.bActual != 0 ? on.pAxis->fActVelocity : on.pAxis->fSetVelocity;
   return 0;
 }
@@ -202,6 +211,8 @@ int16_t setMaster(Ctx &ctx, GroupRef &group, int16_t system, GroupRef *master,
     return wrong;
   if (master == nullptr)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  if (!isFinite(onTool))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
   if (isFollowedBy(group, *master, 0))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
   const int32_t index = settableSystem(system);
@@ -221,7 +232,8 @@ bool isInUse(const GroupRef &group, int16_t system) noexcept {
   if (carrier == 0 || group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled)
     return false;
   const GroupState &state = stateOf(group);
-  if (state.rides == carrier || (state.leaves == carrier && !group::isStill(state.motion.left)))
+  if (state.suspendedIn == carrier || state.rides == carrier ||
+      (state.leaves == carrier && !group::isStill(state.motion.left)))
     return true;
   for (int64_t k = state.firstRequest; k < state.nextRequest; ++k)
     if (carrierOf(group, requestAt(state, k)) == carrier)
@@ -234,13 +246,14 @@ int32_t carrierOf(const GroupRef &group, const Request &request) noexcept {
     return 0;
   if (request.system == decl::SMC_COORD_SYSTEM__TCS)
     return stateOf(group).rides;
-  return carrierOf(group, request.system);
+  return carrierOf(group, request.system) == request.carrier ? request.carrier : 0;
 }
 
 void changeSystem(GroupRef &group, const GroupArm &arm, int32_t carrier, const Request &request) {
   GroupState &state = stateOf(group);
   if (state.rides == carrier)
     return;
+  state.referenced = state.lastAccepted;
   state.leaves = state.rides;
   state.rides = carrier;
   state.hasReached = false;
@@ -265,8 +278,8 @@ int16_t carriedLeg(GroupRef &group, const GroupArm &arm, const Request &request,
   Frame<double> system = kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0));
   if (request.system == decl::SMC_COORD_SYSTEM__TCS)
     system = from;
-  else if (state.rides == 0 && !systemInMachine(group, request.system, system))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+  else if (state.rides == 0)
+    system = group::frameOf(request.frame);
   const group::Pose end = group::poseOf(targetIn(system, request, request.position, from));
   if (request.kind == RequestKind::Circular) {
     const Frame<double> aux = targetIn(system, request, request.aux, from);

@@ -12,6 +12,9 @@ inline constexpr int32_t kCarriers = 2;
 /// Which of them a system is, 1 or 2; 0: it is none of these, or does not move.
 int32_t carrierOf(const GroupRef &group, int16_t system) noexcept;
 
+/// The SMC_COORD_SYSTEM of one of them, 1 or 2.
+int16_t systemNumber(int32_t carrier) noexcept;
+
 /// Looks where the carriers are in this cycle; other groups whose tools are carriers go on before.
 void lookAtCarriers(Ctx &ctx, GroupRef &group);
 

@@ -1,6 +1,6 @@
 // Circular movements: MC_MoveCircularAbsolute, MC_MoveCircularRelative.
 #include "runtime/blocks/SM3_Robotics/movement_inputs.hpp"
-#include "runtime/blocks/SM3_Robotics/requests.hpp"
+#include "runtime/blocks/SM3_Robotics/tool_led.hpp"
 #include "runtime/numeric/group/arc.hpp"
 
 #include "st/SM3_Robotics/MC_CIRC_PATHCHOICE.h"
@@ -16,7 +16,6 @@ namespace decl = ::st::SM3_Robotics;
 namespace error = ::st::SM_Error;
 using group::ArcFault;
 using group::ArcWay;
-using group::Obstacle;
 using kinematics::Frame;
 using kinematics::Outcome;
 using numeric::Vector3;
@@ -40,11 +39,12 @@ int16_t errorOf(ArcFault fault) noexcept {
 }
 
 /// The pose at coordinates of a request; in ACS where the axes bring the tool. An SMC_ERROR.
-int16_t poseAt(const GroupRef &group, const GroupArm &arm, const Request &request,
-               const double (&coordinates)[kArmAxes], const Ends &ends, const Frame<double> &begin,
-               Frame<double> &pose) {
-  if (request.system != decl::SMC_COORD_SYSTEM__ACS)
-    return targetFrame(group, request, coordinates, begin, pose);
+int16_t poseAt(const GroupArm &arm, const Request &request, const double (&coordinates)[kArmAxes],
+               const Ends &ends, const Frame<double> &begin, Frame<double> &pose) {
+  if (request.system != decl::SMC_COORD_SYSTEM__ACS) {
+    pose = targetFrame(request, coordinates, begin);
+    return 0;
+  }
   double axes[kAxes];
   for (int32_t k = 0; k < kAxes; ++k)
     axes[k] = k < arm.arm.joints ? (request.relative ? ends.from[k] : 0.0) + coordinates[k]
@@ -66,38 +66,6 @@ ArcFault arcOf(const Request &request, const Vector3 &start, const Vector3 &aux,
   default:
     return group::arcWithNormal(start, aux - start, end, way, arc);
   }
-}
-
-/// The axes at the end of a leg, which is looked at in small parts: an axis may turn far along it.
-int16_t followLeg(const GroupArm &arm, const group::Leg &leg, Ends &ends) {
-  constexpr int32_t kParts = 36;
-  const group::Arm &all = arm.arm;
-  const group::Arm follows{all.kinematics, all.joints, all.more, all.limits,
-                           all.kinematics.configurationOf(ends.from)};
-  for (int32_t k = 0; k < kArmAxes; ++k)
-    ends.to[k] = ends.from[k];
-  for (int32_t i = 1; i <= kParts; ++i) {
-    group::PathPlace place;
-    group::placeAt(leg, group::Series(i == kParts ? leg.length : leg.length * i / kParts), place);
-    group::Series axes[kAxes];
-    const Obstacle obstacle = group::axesAt(follows, place, ends.to, axes);
-    if (obstacle == Obstacle::AxisLimit)
-      return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;
-    if (obstacle == Obstacle::Unreachable)
-      return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
-    for (int32_t k = 0; k < all.joints; ++k)
-      ends.to[k] = axes[k].c[0];
-  }
-  return 0;
-}
-
-/// Whether the tool is really where a leg ends: what a kinematics cannot choose it does not look
-/// at.
-bool reaches(const GroupArm &arm, const Ends &ends, const Vector3 &place) {
-  constexpr double kNear = 1e-6;
-  Frame<double> reached;
-  return arm.arm.kinematics.forward(ends.to, reached) == Outcome::Done &&
-         (reached.place - group::vectorOf(place)).norm() <= kNear * arm.arm.kinematics.reach();
 }
 
 } // namespace
@@ -128,8 +96,7 @@ int16_t arcLeg(const Request &request, const group::Pose &from, const Vector3 &a
   return errorOf(fault);
 }
 
-int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
-                    group::Leg &leg) {
+int16_t circularLeg(const GroupArm &arm, const Request &request, Ends &ends, group::Leg &leg) {
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
   Frame<double> begin;
@@ -138,10 +105,9 @@ int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &r
   if (const Outcome outcome = arm.arm.kinematics.forward(ends.from, begin);
       outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
-  if (const int16_t wrong = poseAt(group, arm, request, request.aux, ends, begin, aux); wrong != 0)
+  if (const int16_t wrong = poseAt(arm, request, request.aux, ends, begin, aux); wrong != 0)
     return wrong;
-  if (const int16_t wrong = poseAt(group, arm, request, request.position, ends, begin, target);
-      wrong != 0)
+  if (const int16_t wrong = poseAt(arm, request, request.position, ends, begin, target); wrong != 0)
     return wrong;
   group::MoreAxes more;
   for (int32_t k = 0; k < kMoreAxes; ++k) {
@@ -153,9 +119,8 @@ int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &r
           arcLeg(request, group::poseOf(begin), group::plain(aux.place), to, more, leg);
       wrong != 0)
     return wrong;
-  if (const int16_t wrong = followLeg(arm, leg, ends); wrong != 0)
-    return wrong;
-  return reaches(arm, ends, to.place) ? int16_t{0} : error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
+  constexpr int32_t kParts = 36;
+  return followLeg(arm.arm, leg, kParts, ends);
 }
 
 } // namespace stride::robotics

@@ -2,9 +2,10 @@
 // itself: MC_GroupReadActualVelocity, SMC_GroupTargetPosition, SMC_GroupConvertPosition,
 // MC_GroupSetPosition, MC_ReadKinTransform, SMC_GroupAcceptsMovements.
 #include "runtime/axis/shift_position.hpp"
+#include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/blocks/SM3_Robotics/group_block.hpp"
 #include "runtime/blocks/SM3_Robotics/movement_inputs.hpp"
-#include "runtime/blocks/SM3_Robotics/requests.hpp"
+#include "runtime/blocks/SM3_Robotics/tool_led.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
 #include "st/SM3_Robotics/MC_GroupReadActualVelocity.h"
@@ -37,21 +38,11 @@ Matrix<double> coefficient(const Matrix<Series> &matrix, int n) {
   return result;
 }
 
-/// How a coordinate system is turned in the machine. An SMC_ERROR.
-int16_t turnOf(const GroupRef &group, int16_t system, const Frame<double> &tool,
-               Matrix<double> &turn) {
-  Frame<double> origin = tool;
-  if (system != decl::SMC_COORD_SYSTEM__TCS && !systemInMachine(group, system, origin))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  turn = origin.turn;
-  return 0;
-}
-
 /// How fast the tool is by its axes' velocities: its point, and its angular velocity. An SMC_ERROR.
 int16_t toolVelocity(Ctx &ctx, const GroupRef &group, int16_t system, double (&result)[kArmAxes]) {
   const GroupArm arm(ctx, group);
-  if (arm.outcome != Outcome::Done)
-    return kinematics::errorOf(arm.outcome);
+  if (const int16_t wrong = whyNoTool(group, arm); wrong != 0)
+    return wrong;
   Series axes[kAxes];
   for (int32_t i = 0; i < group.uiAxes; ++i)
     axes[placeOf(group, i)] =
@@ -60,9 +51,10 @@ int16_t toolVelocity(Ctx &ctx, const GroupRef &group, int16_t system, double (&r
   if (const Outcome outcome = arm.arm.kinematics.forward(axes, tool); outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
   const Frame<double> now{coefficient(tool.turn, 0), coefficient(tool.place, 0)};
-  Matrix<double> turn;
-  if (const int16_t wrong = turnOf(group, system, now, turn); wrong != 0)
+  Frame<double> origin;
+  if (const int16_t wrong = originOf(group, arm, system, origin); wrong != 0)
     return wrong;
+  const Matrix<double> turn = origin.turn;
   const Matrix<double> spin = coefficient(tool.turn, 1) * now.turn.transpose();
   const Vector<double> about(0.5 * (spin(2, 1) - spin(1, 2)), 0.5 * (spin(0, 2) - spin(2, 0)),
                              0.5 * (spin(1, 0) - spin(0, 1)));
@@ -87,33 +79,75 @@ int16_t readVelocity(Ctx &ctx, const GroupRef &group, int16_t system, decl::SMC_
   return 0;
 }
 
-/// The axes where the movements end that the group has taken. False: that is not known.
-bool targetAxes(const GroupRef &group, double (&axes)[kAxes]) noexcept {
+/// Whether it is known where the movements end that the group has taken.
+bool isEndKnown(const GroupRef &group) noexcept {
   const GroupState &state = stateOf(group);
-  if (state.firstRequest < state.nextRequest || state.interrupting ||
-      (group.bOwns != 0 && state.motion.abandoned))
-    return false;
-  if (group.bOwns != 0 && state.motion.first < state.motion.next) {
-    for (int32_t k = 0; k < kAxes; ++k)
-      axes[k] = state.end[k];
-    return true;
-  }
-  for (int32_t i = 0; i < group.uiAxes; ++i)
-    axes[placeOf(group, i)] = group.apAxis.v[i]->fSetPosition;
-  return true;
+  return state.firstRequest == state.nextRequest && !state.interrupting &&
+         !(group.bOwns != 0 && state.motion.abandoned);
 }
 
-/// Where a coordinate system stands in the machine; TCS: where the tool is now. An SMC_ERROR.
-int16_t originOf(const GroupRef &group, const GroupArm &arm, int16_t system,
-                 Frame<double> &origin) {
-  if (system != decl::SMC_COORD_SYSTEM__TCS)
-    return systemInMachine(group, system, origin)
-               ? int16_t{0}
-               : error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  double now[kAxes] = {};
-  for (int32_t i = 0; i < group.uiAxes; ++i)
-    now[placeOf(group, i)] = group.apAxis.v[i]->fSetPosition;
-  return kinematics::errorOf(arm.arm.kinematics.forward(now, origin));
+/// The tool's frame in the machine where they end: of a path in a system that moves, where that is
+/// now. An SMC_ERROR.
+int16_t targetInMachine(const GroupRef &group, const GroupArm &arm, const double (&axes)[kAxes],
+                        Frame<double> &target) {
+  const GroupState &state = stateOf(group);
+  const bool moves = group.bOwns != 0 && state.motion.first < state.motion.next;
+  if (!moves || !group::isCarried(state.motion))
+    return kinematics::errorOf(arm.arm.kinematics.forward(axes, target));
+  Frame<double> system = kinematics::unturned(Vector<double>(0.0, 0.0, 0.0));
+  if (state.rides != 0)
+    (void)systemInMachine(group, systemNumber(state.rides), system);
+  target = system * group::frameOf(state.endPose);
+  return 0;
+}
+
+/// The axes where they end, but for a path in a system that moves: where they are.
+void targetAxes(const GroupRef &group, double (&axes)[kAxes]) noexcept {
+  const GroupState &state = stateOf(group);
+  const bool moves = group.bOwns != 0 && state.motion.first < state.motion.next;
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    const int32_t k = placeOf(group, i);
+    axes[k] =
+        moves && !group::isCarried(state.motion) ? state.end[k] : group.apAxis.v[i]->fSetPosition;
+  }
+}
+
+/// Where the movements end, as a system counts it. An SMC_ERROR.
+int16_t readTarget(Ctx &ctx, decl::SMC_GroupTargetPosition &block, GroupRef &group) {
+  double axes[kAxes] = {};
+  targetAxes(group, axes);
+  const bool carried = group::isCarried(stateOf(group).motion);
+  const int16_t system = block.CoordSystem;
+  if (!carried && system != decl::SMC_COORD_SYSTEM__TCS)
+    return positionOf(ctx, group, system, axes, block.Position, block.KinematicConfig);
+  const GroupArm arm(ctx, group);
+  if (const int16_t wrong = whyNoTool(group, arm); wrong != 0)
+    return wrong;
+  Frame<double> target;
+  if (const int16_t wrong = targetInMachine(group, arm, axes, target); wrong != 0)
+    return wrong;
+  const kinematics::Configuration stands = arm.arm.kinematics.configurationOf(axes);
+  double result[kArmAxes] = {};
+  block.KinematicConfig = {};
+  if (system == decl::SMC_COORD_SYSTEM__ACS) {
+    if (const int16_t wrong = axesFor(arm.arm, target, stands, axes, result); wrong != 0)
+      return wrong;
+  } else {
+    Frame<double> origin;
+    if (const int16_t wrong = originOf(group, arm, system, origin); wrong != 0)
+      return wrong;
+    toPose(kinematics::inverted(origin) * target, result);
+    __builtin_memcpy(&block.KinematicConfig, &stands, sizeof stands);
+  }
+  __builtin_memcpy(&block.Position, result, sizeof block.Position);
+  return 0;
+}
+
+/// Whether a place where a path ends stays where it is, as a system counts it.
+bool isStable(const GroupRef &group, int16_t system) noexcept {
+  if (system == decl::SMC_COORD_SYSTEM__TCS)
+    return group.bOwns == 0;
+  return carrierOf(group, system) == stateOf(group).rides;
 }
 
 /// The tool's frame in the machine at a position of SMC_GroupConvertPosition; `axes` are those,
@@ -144,9 +178,8 @@ int16_t positionOut(decl::SMC_GroupConvertPosition &block, const GroupRef &group
     __builtin_memcpy(&configuration, &block.config, sizeof configuration);
     double reference[kArmAxes];
     __builtin_memcpy(reference, &block.aRef, sizeof reference);
-    if (const Outcome outcome = kinematics.inverse(frame, configuration, reference, result);
-        outcome != Outcome::Done)
-      return kinematics::errorOf(outcome);
+    if (const int16_t wrong = axesFor(arm.arm, frame, configuration, reference, result); wrong != 0)
+      return wrong;
   } else {
     Frame<double> origin;
     if (const int16_t wrong = originOf(group, arm, block.CoordSystemOut, origin); wrong != 0)
@@ -161,9 +194,23 @@ int16_t positionOut(decl::SMC_GroupConvertPosition &block, const GroupRef &group
   return 0;
 }
 
+bool areNumbers(const decl::SMC_GroupConvertPosition &block) noexcept {
+  double position[kArmAxes];
+  fillCoordinates(*block.PositionIn, position);
+  double reference[kArmAxes];
+  __builtin_memcpy(reference, &block.aRef, sizeof reference);
+  return isFinite(position) && isFinite(reference);
+}
+
+bool isSystem(int16_t system) noexcept {
+  return system >= decl::SMC_COORD_SYSTEM__ACS && system <= decl::SMC_COORD_SYSTEM__TCS;
+}
+
 int16_t convert(Ctx &ctx, decl::SMC_GroupConvertPosition &block, const GroupRef &group) {
-  if (block.PositionIn == nullptr)
+  if (block.PositionIn == nullptr || !areNumbers(block))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
+  if (!isSystem(block.CoordSystemIn) || !isSystem(block.CoordSystemOut))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
   if (block.CoordSystemIn == block.CoordSystemOut) {
     block.PositionOut = *block.PositionIn;
     block.configOut = block.config;
@@ -171,8 +218,8 @@ int16_t convert(Ctx &ctx, decl::SMC_GroupConvertPosition &block, const GroupRef 
   }
   GroupArm arm(ctx, group);
   arm.setTool(block.UseToolOffsetParameter != 0 ? Tool{block.ToolOffset, true} : toolOf(group));
-  if (arm.outcome != Outcome::Done)
-    return kinematics::errorOf(arm.outcome);
+  if (const int16_t wrong = whyNoTool(group, arm); wrong != 0)
+    return wrong;
   double axes[kAxes] = {};
   Frame<double> frame;
   if (const int16_t wrong = frameIn(block, group, arm, axes, frame); wrong != 0)
@@ -195,20 +242,18 @@ int16_t axesAt(Ctx &ctx, const decl::MC_GroupSetPosition &block, const GroupRef 
       axes[k] = (request.relative ? axes[k] : 0.0) + request.position[k];
     return 0;
   }
+  if (const int16_t wrong = noteSystem(group, request); wrong != 0)
+    return wrong;
   const GroupArm arm(ctx, group);
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
   Frame<double> begin;
-  Frame<double> target;
   if (const Outcome outcome = arm.arm.kinematics.forward(axes, begin); outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
-  if (const int16_t wrong = targetFrame(group, request, request.position, begin, target);
-      wrong != 0)
-    return wrong;
+  const Frame<double> target = targetFrame(request, request.position, begin);
   double from[kAxes];
   __builtin_memcpy(from, axes, sizeof from);
-  return kinematics::errorOf(
-      arm.arm.kinematics.inverse(target, arm.arm.kinematics.configurationOf(from), from, axes));
+  return axesFor(arm.arm, target, arm.arm.kinematics.configurationOf(from), from, axes);
 }
 
 int16_t setPosition(Ctx &ctx, const decl::MC_GroupSetPosition &block, GroupRef &group) {
@@ -249,14 +294,14 @@ void decl::MC_GroupReadActualVelocity::body__(::stride::Ctx &ctx__) {
 
 void decl::SMC_GroupTargetPosition::body__(::stride::Ctx &ctx__) {
   bool known = false;
+  bool stable = false;
   robotics::runReader(ctx__, *this, [&](GroupRef &group) -> int16_t {
-    double axes[robotics::kAxes] = {};
-    known = robotics::targetAxes(group, axes);
-    return known ? robotics::positionOf(ctx__, group, CoordSystem, axes, Position, KinematicConfig)
-                 : int16_t{0};
+    known = robotics::isEndKnown(group);
+    stable = robotics::isStable(group, CoordSystem);
+    return known ? robotics::readTarget(ctx__, *this, group) : int16_t{0};
   });
   Valid = Valid != 0 && known;
-  Stable = Valid;
+  Stable = Valid != 0 && stable;
 }
 
 void decl::SMC_GroupConvertPosition::body__(::stride::Ctx &ctx__) {

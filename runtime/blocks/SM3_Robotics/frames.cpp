@@ -33,6 +33,25 @@ kinematics::KinematicsRef refOf(const kinematics::KinematicsOf &kinematics,
 
 } // namespace
 
+void countJoints(Ctx &ctx, GroupRef &group) {
+  const kinematics::KinematicsOf kinematics(ctx, group.itfKinematics);
+  int32_t joints = kArmAxes;
+  if (kinematics.check() == kinematics::Outcome::Done)
+    joints = kinematics.ref().joints();
+  // Until the group is enabled nobody has refused too many axes that go along: they have no place.
+  const int32_t axes = group.uiAxes;
+  joints = axes - joints > kMoreAxes ? axes - kMoreAxes : joints;
+  group.uiJoints = static_cast<UINT>(axes < joints ? axes : joints);
+}
+
+int16_t whyNoTool(const GroupRef &group, const GroupArm &arm) noexcept {
+  if (arm.outcome != kinematics::Outcome::Done)
+    return kinematics::errorOf(arm.outcome);
+  return group.uiJoints == arm.arm.kinematics.joints()
+             ? int16_t{0}
+             : ::st::SM_Error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;
+}
+
 GroupArm::GroupArm(Ctx &ctx, const GroupRef &group)
     : kinematics_(ctx, group.itfKinematics), none_{}, limits_{}, outcome(kinematics_.check()),
       arm{refOf(kinematics_, none_), group.uiJoints, group.uiAxes - group.uiJoints, limits_, {}} {
@@ -57,6 +76,18 @@ bool GroupArm::isPlain() const noexcept {
 const kinematics::AnyKinematics &GroupArm::plainKinematics() const noexcept {
   const kinematics::AnyKinematics *const plain = kinematics_.plain();
   return kinematics_.check() == kinematics::Outcome::Done && plain != nullptr ? *plain : none_;
+}
+
+bool isFinite(const double (&numbers)[kArmAxes]) noexcept {
+  for (const double number : numbers)
+    if (!exact::isfinite(number))
+      return false;
+  return true;
+}
+bool isFinite(const decl::MC_COORD_REF &pose) noexcept {
+  double numbers[kArmAxes];
+  __builtin_memcpy(numbers, &pose, sizeof numbers);
+  return isFinite(numbers);
 }
 
 Frame<double> frameOf(const double (&pose)[kArmAxes]) {
@@ -110,6 +141,18 @@ bool systemInMachine(const GroupRef &group, int16_t system, Frame<double> &frame
   else if (index > 0)
     frame = frame * frameOf(group.astSystem.v[index]);
   return index > 0 || system == decl::SMC_COORD_SYSTEM__WCS;
+}
+
+int16_t originOf(const GroupRef &group, const GroupArm &arm, int16_t system,
+                 Frame<double> &origin) {
+  if (system != decl::SMC_COORD_SYSTEM__TCS)
+    return systemInMachine(group, system, origin)
+               ? int16_t{0}
+               : ::st::SM_Error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+  double now[kAxes] = {};
+  for (int32_t i = 0; i < group.uiAxes; ++i)
+    now[placeOf(group, i)] = group.apAxis.v[i]->fSetPosition;
+  return kinematics::errorOf(arm.arm.kinematics.forward(now, origin));
 }
 
 } // namespace stride::robotics

@@ -29,6 +29,7 @@ void takeAxes(GroupRef &group) noexcept {
     AxisRef &axis = axisAt(group, i);
     axis.stQueue.uiCount = 0;
     group.aulOwner.v[i] = axis::takeAxis(axis);
+    stateOf(group).zero[i] = axis.fOffsetPosition;
     axis.nAxisState = axis::state::kSynchronized;
     // The group begins to move in the next cycle.
     axis::writeSetPoint(axis, {axis.fSetPosition, 0.0, 0.0});
@@ -74,7 +75,9 @@ int16_t problemOf(const GroupRef &group) noexcept {
       continue;
     if (!axis::isPowered(axis))
       return error::SMC_ERROR__SMC_AXIS_GROUP_AXIS_NOT_FOLLOWING;
-    if (!axis::ownsAxis(axis, group.aulOwner.v[i]))
+    // Set positions of before a shift (MC_SetPosition) would be others for the drive.
+    if (!axis::ownsAxis(axis, group.aulOwner.v[i]) ||
+        axis.fOffsetPosition != stateOf(group).zero[i])
       return error::SMC_ERROR__SMC_AXIS_GROUP_INTERRUPTED_BY_SINGLE_AXIS;
   }
   return 0;
@@ -217,6 +220,8 @@ void beginMoving(GroupRef &group) noexcept {
 void serve(Ctx &ctx, GroupRef &group) {
   const uint64_t now = ctx.cycle + 1;
   dropUnused(stateOf(group).triggers, now);
+  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled)
+    countJoints(ctx, group);
   if (group.ulServed == now || group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled ||
       group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
     return;
@@ -337,7 +342,10 @@ int16_t enable(Ctx &ctx, GroupRef &group) {
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;
   const uint64_t lastId = stateOf(group).motion.lastId; // what has been kept says its ids
   const int64_t epoch = stateOf(group).motion.epoch;    // and what another task plans this
+  const uint64_t lastTrigger =
+      stateOf(group).triggers.lastId; // who reads an old one gets no new one
   stateOf(group) = GroupState{};
+  stateOf(group).triggers.lastId = stateOf(group).triggers.settledId = lastTrigger;
   stateOf(group).motion.lastId = lastId;
   stateOf(group).motion.epoch = epoch + 1;
   for (auto &carrier : group.astCarrier.v)

@@ -47,6 +47,7 @@ struct Request {
   bool relative;
   int16_t system;            ///< SMC_COORD_SYSTEM
   int16_t bufferMode;        ///< MC_BUFFER_MODE
+  int16_t transitionMode;    ///< MC_TRANSITION_MODE
   double position[kArmAxes]; ///< Of axes, or a pose by X, Y, Z, A, B, C. [u], [°]
   int16_t orientationMode;   ///< SMC_ORIENTATION_MODE
   double torqueFactor;       ///< Of a movement; nothing depends on it.
@@ -60,6 +61,8 @@ struct Request {
   double jerk;          ///< Likewise. [u/s^3]
   bool forgets;         ///< Halt: what it aborts cannot be continued.
   Tool tool;            ///< When it was asked for.
+  group::Pose frame;    ///< Of `system` in the machine, likewise; not of ACS and TCS.
+  int32_t carrier;      ///< Which moving system that was: 1 or 2, PCS_1 or PCS_2; 0: none.
   ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Likewise.
 };
 
@@ -72,6 +75,8 @@ struct GroupState {
   int64_t abortedEnd;     ///< And the first one after them.
   int16_t error[group::kOutcomes]; ///< Why movements have failed, by id: SMC_ERROR.
   double end[kAxes];               ///< Axes where the movements end that have been taken. [u]
+  double zero[kAxes];              ///< Where the zero points of the group's axes are, by their
+                                   ///< numbers in the group, since it owns them. [u]
   double deceleration;             ///< Of the present stop. [u/s^2]
   double jerk;                     ///< Likewise. [u/s^3]
   double accelerationPart;         ///< Likewise: see group::GroupCommand.
@@ -80,10 +85,12 @@ struct GroupState {
   group::Pose endPose;             ///< Where these end, in the path's system, if that moves.
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
+  uint64_t referenced;             ///< The movement before the system was changed last.
   Tool tool;                       ///< Of the movements.
-  uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
-  uint64_t refused;   ///< The last cycle, plus 1, in which a movement was refused in its own call.
-  bool interrupting;  ///< It comes to rest to be continued later.
+  uint64_t resumable;  ///< The last cycle, plus 1, in which errors were to be resumable.
+  uint64_t refused;    ///< The last cycle, plus 1, in which a movement was refused in its own call.
+  bool interrupting;   ///< It comes to rest to be continued later.
+  int32_t suspendedIn; ///< In which moving system movements wait to be continued, as `rides`.
   ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Of the movements.
   double orientationLag;                             ///< Behind the system that is followed. [°]
   bool hasReached;               ///< That has been reached since it is followed.

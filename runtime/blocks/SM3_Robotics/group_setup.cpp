@@ -71,15 +71,15 @@ int16_t positionOf(Ctx &ctx, GroupRef &group, int16_t system, const double (&axe
   configuration = {};
   if (system != decl::SMC_COORD_SYSTEM__ACS) {
     const GroupArm arm(ctx, group);
-    if (arm.outcome != Outcome::Done)
-      return kinematics::errorOf(arm.outcome);
+    if (const int16_t wrong = whyNoTool(group, arm); wrong != 0)
+      return wrong;
     Frame<double> tool;
     const Outcome outcome = arm.arm.kinematics.forward(axes, tool);
     if (outcome != Outcome::Done)
       return kinematics::errorOf(outcome);
-    Frame<double> origin = tool; // TCS: the tool itself
-    if (system != decl::SMC_COORD_SYSTEM__TCS && !systemInMachine(group, system, origin))
-      return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+    Frame<double> origin;
+    if (const int16_t wrong = originOf(group, arm, system, origin); wrong != 0)
+      return wrong;
     toPose(kinematics::inverted(origin) * tool, result);
     const kinematics::Configuration stands = arm.arm.kinematics.configurationOf(axes);
     __builtin_memcpy(&configuration, &stands, sizeof configuration);

@@ -33,16 +33,13 @@ void jogAxes(const GroupArm &arm, const Request &request, Ends &ends) {
   }
 }
 
-/// The pose as far as the keys lead. An SMC_ERROR.
-int16_t jogPose(const GroupRef &group, const Request &request, const Frame<double> &begin,
-                Frame<double> &target) {
-  Frame<double> system = begin; // TCS
-  if (request.system != decl::SMC_COORD_SYSTEM__TCS &&
-      !systemInMachine(group, request.system, system))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+/// The pose as far as the keys lead.
+Frame<double> jogPose(const Request &request, const Frame<double> &begin) {
+  const bool inTool = request.system == decl::SMC_COORD_SYSTEM__TCS;
+  const Frame<double> system = inTool ? begin : group::frameOf(request.frame);
   const Vector<double> way(request.position[0], request.position[1], request.position[2]);
   const Vector<double> about(request.position[3], request.position[4], request.position[5]);
-  target = begin;
+  Frame<double> target = begin;
   target.place += system.turn * way * request.aux[0];
   if (about.norm() > 0.0) {
     constexpr double kMost = 170.0; // [°] a line's tool turns by the shortest way
@@ -50,7 +47,7 @@ int16_t jogPose(const GroupRef &group, const Request &request, const Frame<doubl
     target.turn =
         kinematics::about(Vector<double>(system.turn * about.normalized()), angle) * begin.turn;
   }
-  return 0;
+  return target;
 }
 
 /// Whether the axes bring the tool to a place of a leg, from where they are nearby.
@@ -101,17 +98,14 @@ double reachAlong(const GroupArm &arm, const group::Leg &leg, double (&axes)[kAx
   return good;
 }
 
-int16_t jogTool(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
-                group::Leg &leg) {
+int16_t jogTool(const GroupArm &arm, const Request &request, Ends &ends, group::Leg &leg) {
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
   Frame<double> begin;
-  Frame<double> target;
   if (const Outcome outcome = arm.arm.kinematics.forward(ends.from, begin);
       outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
-  if (const int16_t wrong = jogPose(group, request, begin, target); wrong != 0)
-    return wrong;
+  const Frame<double> target = jogPose(request, begin);
   group::MoreAxes more;
   for (int32_t k = 0; k < kMoreAxes; ++k)
     more.from[k] = more.to[k] = ends.from[kArmAxes + k];
@@ -192,7 +186,7 @@ int16_t wrongJog(const Request &request) noexcept {
 int16_t jogLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
                group::Leg &leg) {
   if (request.system != decl::SMC_COORD_SYSTEM__ACS)
-    return jogTool(group, arm, request, ends, leg);
+    return jogTool(arm, request, ends, leg);
   jogAxes(arm, request, ends);
   double perTime[kAxes];
   for (int32_t k = 0; k < kAxes; ++k)
@@ -200,6 +194,16 @@ int16_t jogLeg(const GroupRef &group, const GroupArm &arm, const Request &reques
                  request.order.shares.velocity[k];
   leg = group::axesLeg(ends.from, ends.to, perTime, speedOf(stateOf(group).motion, request.order));
   return 0;
+}
+
+/// What has become of the movement: another one may have ended it since the last call.
+static void followJog(decl::SMC_GroupJog2 &block, const GroupState &state) noexcept {
+  if (block.stBlock.bRunning == 0)
+    return;
+  const group::Outcome outcome = group::outcomeOf(state.motion, block.stBlock.ulId);
+  block.stBlock.bRunning = goesOn(outcome) && outcome != group::Outcome::Interrupted;
+  if (outcome == group::Outcome::Failed)
+    setError(block, state.error[block.stBlock.ulId % group::kOutcomes]);
 }
 
 static void runJog(Ctx &ctx, decl::SMC_GroupJog2 &block) {
@@ -218,14 +222,10 @@ static void runJog(Ctx &ctx, decl::SMC_GroupJog2 &block) {
     changed = changed || way != block.aiOld.v[k];
     block.aiOld.v[k] = way;
   }
+  followJog(block, stateOf(group));
   if (changed)
     begin(ctx, block, group, any);
-  if (block.stBlock.bRunning != 0) {
-    const group::Outcome outcome = group::outcomeOf(stateOf(group).motion, block.stBlock.ulId);
-    block.stBlock.bRunning = goesOn(outcome) && outcome != group::Outcome::Interrupted;
-    if (outcome == group::Outcome::Failed)
-      setError(block, stateOf(group).error[block.stBlock.ulId % group::kOutcomes]);
-  }
+  followJog(block, stateOf(group));
   if (block.Enable == 0 && block.stBlock.bRunning == 0)
     setError(block, 0);
   ::st::SM3_Transformation::CONFIGDATA stands;

@@ -16,6 +16,7 @@ group::Transition transitionOf(int16_t bufferMode, int16_t transition) noexcept;
 template <class Block> void fillModes(const Block &block, Request &request) noexcept {
   request.system = block.CoordSystem;
   request.bufferMode = block.BufferMode;
+  request.transitionMode = block.TransitionMode;
   request.order.transition = transitionOf(block.BufferMode, block.TransitionMode);
   request.order.transitionValue = block.TransitionParameter.v[0];
   request.order.cornerSpeed = cornerSpeedOf(block.BufferMode);

@@ -18,7 +18,7 @@ using robotics::GroupRef;
 void decl::MC_GroupReadStatus::body__(::stride::Ctx &ctx__) {
   GroupMoving = GroupHoming = GroupErrorStop = GroupStandby = GroupStopping = GroupDisabled = 0;
   TrackingDynamicCS = InSync = 0;
-  ActiveMovementId = LastAcceptedMovementId = 0;
+  ActiveMovementId = FirstReferencedMovementId = LastAcceptedMovementId = 0;
   PositionLag = OrientationLag = CurrentPlanningForecast = 0.0;
   robotics::runReader(ctx__, *this, [this](GroupRef &group) -> int16_t {
     const robotics::GroupState &state = robotics::stateOf(group);
@@ -30,6 +30,9 @@ void decl::MC_GroupReadStatus::body__(::stride::Ctx &ctx__) {
     const ::stride::group::Movement *active = ::stride::group::activeOf(state.motion);
     if (GroupMoving != 0 && active != nullptr && !state.motion.abandoned)
       ActiveMovementId = active->id;
+    const bool settles = (state.motion.ride.follows && !state.hasReached) ||
+                         !::stride::group::isStill(state.motion.left);
+    FirstReferencedMovementId = settles ? state.referenced : ActiveMovementId;
     LastAcceptedMovementId = state.lastAccepted;
     TrackingDynamicCS = state.motion.ride.follows ? 1 : 0;
     InSync = state.motion.ride.inSync ? 1 : 0;

@@ -4,9 +4,11 @@
 
 #include "runtime/axis/axis_ref.hpp"
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
+#include "runtime/blocks/SM3_Robotics/tool_led.hpp"
 #include "runtime/numeric/group/kept_path.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
+#include "st/SM3_Robotics/MC_TRANSITION_MODE.h"
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
 #include "st/SM3_Robotics/SMC_GROUP_ADDITIONAL_MODE.h"
@@ -49,6 +51,9 @@ int16_t wrongInput(const Request &request) noexcept {
       (!exact::isPositive(path.velocity) || !exact::isPositive(path.acceleration) ||
        !exact::isPositive(path.deceleration) || !exact::isPositive(path.jerk)))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+  if (request.transitionMode < decl::MC_TRANSITION_MODE__TMNone ||
+      request.transitionMode > decl::MC_TRANSITION_MODE__TMCornerDistance)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_TRANSITION;
   if (order.transition != group::Transition::None && !exact::isPositive(order.transitionValue))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_TRANSITION;
   for (const double position : request.position)
@@ -74,24 +79,11 @@ int16_t axesOfTool(const GroupRef &group, const GroupArm &arm, const Request &re
   Frame<double> begin;
   if (const Outcome outcome = kinematics.forward(ends.from, begin); outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
-  Frame<double> target;
-  if (const int16_t wrong = targetFrame(group, request, request.position, begin, target);
-      wrong != 0)
-    return wrong;
+  const Frame<double> target = targetFrame(request, request.position, begin);
   kinematics::Configuration configuration = kinematics.configurationOf(ends.from);
   if (request.kind == RequestKind::Direct && group.bConfiguration != 0)
     __builtin_memcpy(&configuration, &group.stConfiguration, sizeof configuration);
-  const Outcome outcome = kinematics.inverse(target, configuration, ends.from, ends.to);
-  if (outcome != Outcome::Done)
-    return kinematics::errorOf(outcome);
-  // What the kinematics cannot choose of a pose it does not look at; of its place it must reach
-  // all.
-  constexpr double kNear = 1e-6;
-  Frame<double> reached;
-  (void)kinematics.forward(ends.to, reached);
-  const double far = (reached.place - target.place).norm();
-  return far <= kNear * kinematics.reach() ? int16_t{0}
-                                           : error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
+  return axesFor(arm.arm, target, configuration, ends.from, ends.to);
 }
 
 /// Where a movement ends that is no arc. An SMC_ERROR.
@@ -142,7 +134,7 @@ group::MoreAxes moreAxesOf(const Ends &ends) noexcept {
   return more;
 }
 
-int16_t linearLeg(const GroupArm &arm, const Ends &ends, group::Leg &leg) {
+int16_t linearLeg(const GroupArm &arm, Ends &ends, group::Leg &leg) {
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
   Frame<double> from;
@@ -151,14 +143,14 @@ int16_t linearLeg(const GroupArm &arm, const Ends &ends, group::Leg &leg) {
   if (arm.arm.kinematics.forward(ends.to, to) != Outcome::Done)
     return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
   leg = group::lineLeg(group::poseOf(from), group::poseOf(to), moreAxesOf(ends));
-  return 0;
+  return settleLine(arm.arm, leg, ends);
 }
 
 /// The leg of a request from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
 int16_t legOf(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
               group::Leg &leg) {
   if (request.kind == RequestKind::Circular)
-    return circularLeg(group, arm, request, ends, leg);
+    return circularLeg(arm, request, ends, leg);
   if (request.kind == RequestKind::Jog)
     return jogLeg(group, arm, request, ends, leg);
   if (const int16_t wrong = findEnd(group, arm, request, ends); wrong != 0)
@@ -187,6 +179,9 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
                                     : legOf(group, arm, request, ends, leg);
       wrong != 0)
     return wrong;
+  if (group::leadsTool(leg) && (first || !carried))
+    if (const int16_t wrong = whyNotFrom(arm.arm, ends.from); wrong != 0)
+      return wrong;
   if (!areWithinLimits(arm, ends, kArmAxes, arm.arm.more) ||
       (!carried && !areWithinLimits(arm, ends, 0, arm.arm.joints)))
     return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;
@@ -338,20 +333,29 @@ Frame<double> targetIn(const Frame<double> &system, const Request &request,
   return target;
 }
 
-int16_t targetFrame(const GroupRef &group, const Request &request,
-                    const double (&coordinates)[kArmAxes], const Frame<double> &begin,
-                    Frame<double> &target) {
-  const bool inTool = request.system == decl::SMC_COORD_SYSTEM__TCS;
-  Frame<double> system = begin;
-  if (!inTool && !systemInMachine(group, request.system, system))
+int16_t noteSystem(const GroupRef &group, Request &request) noexcept {
+  request.carrier = carrierOf(group, request.system);
+  if (request.system == decl::SMC_COORD_SYSTEM__ACS ||
+      request.system == decl::SMC_COORD_SYSTEM__TCS)
+    return 0;
+  Frame<double> frame;
+  if (!systemInMachine(group, request.system, frame))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  target = targetIn(system, request, coordinates, begin);
+  request.frame = group::poseOf(frame);
   return 0;
+}
+
+Frame<double> targetFrame(const Request &request, const double (&coordinates)[kArmAxes],
+                          const Frame<double> &begin) {
+  const bool inTool = request.system == decl::SMC_COORD_SYSTEM__TCS;
+  return targetIn(inTool ? begin : group::frameOf(request.frame), request, coordinates, begin);
 }
 
 int16_t enqueue(GroupRef &group, Request &request) noexcept {
   GroupState &state = stateOf(group);
   if (const int16_t wrong = wrongInput(request); wrong != 0)
+    return wrong;
+  if (const int16_t wrong = noteSystem(group, request); wrong != 0)
     return wrong;
   if (request.kind != RequestKind::Halt && !canRide(request) &&
       carrierOf(group, request.system) != 0)
@@ -392,8 +396,10 @@ void takeRequests(GroupRef &group, GroupArm &arm) {
 }
 
 void abortAll(GroupState &state, bool all) noexcept {
-  if (all)
+  if (all) {
     group::abortInterrupted(state.motion);
+    state.suspendedIn = 0;
+  }
   if (!state.motion.abandoned) { // else it has been told already what can be continued
     state.abortedRequest = state.firstRequest;
     state.abortedEnd = state.nextRequest;

@@ -25,10 +25,13 @@ bool aborts(const Request &request) noexcept;
 /// Makes movements of the requests that wait, as far as they can be taken now.
 void takeRequests(GroupRef &group, GroupArm &arm);
 
-/// The pose that a request means by `coordinates`, from the pose where it begins. An SMC_ERROR.
-int16_t targetFrame(const GroupRef &group, const Request &request,
-                    const double (&coordinates)[kArmAxes], const kinematics::Frame<double> &begin,
-                    kinematics::Frame<double> &target);
+/// Notes where the coordinate system of a request is now: later changes of it are not meant. An
+/// SMC_ERROR if there is no such system.
+int16_t noteSystem(const GroupRef &group, Request &request) noexcept;
+
+/// The pose that a request means by `coordinates`, from the pose where it begins.
+kinematics::Frame<double> targetFrame(const Request &request, const double (&coordinates)[kArmAxes],
+                                      const kinematics::Frame<double> &begin);
 
 /// From where a movement goes to where: axes at both ends.
 struct Ends {
@@ -40,8 +43,7 @@ struct Ends {
 int16_t wrongCircle(const Request &request) noexcept;
 
 /// The arc of a circular movement from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
-int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
-                    group::Leg &leg);
+int16_t circularLeg(const GroupArm &arm, const Request &request, Ends &ends, group::Leg &leg);
 
 /// The leg of a circular movement between two poses of the tool, by a third place. An SMC_ERROR.
 int16_t arcLeg(const Request &request, const group::Pose &from, const numeric::Vector3 &aux,
@@ -102,6 +104,10 @@ uint64_t failedMovement(const GroupState &state) noexcept;
 /// What has been prepared in the present cycle (`cycle`, plus 1) belongs to a movement now, also if
 /// that is refused: an SMC_ERROR.
 void bindTriggers(GroupRef &group, uint64_t cycle, uint64_t movement, int16_t refusal) noexcept;
+
+/// Where too many triggers are remembered, those of movements that wait to be continued go: they
+/// may never be.
+void makeRoomForTrigger(GroupState &state) noexcept;
 
 /// Finds where on a movement its triggers are.
 void locateTriggers(GroupState &state, const group::Arm &arm, uint64_t movement,

@@ -93,6 +93,7 @@ void decl::SMC_GroupPrepareTrigger::body__(::stride::Ctx &ctx__) {
     if (AxisGroup != nullptr) {
       uint64_t id = 0;
       error = ::st::SM_Error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
+      robotics::makeRoomForTrigger(robotics::stateOf(*AxisGroup));
       if (placeOf(PositionType, Position, place))
         error = robotics::prepareTrigger(robotics::stateOf(*AxisGroup).triggers, ctx__.cycle + 1,
                                          place, udiMost, id);

@@ -151,8 +151,7 @@ int16_t prepareTrigger(Triggers &triggers, uint64_t cycle, const TriggerPlace &p
   dropUnused(triggers, cycle);
   if (const int16_t wrong = wrongPlace(place); wrong != 0)
     return wrong;
-  if (triggers.prepared >= most ||
-      triggers.lastId - triggers.settledId >= static_cast<uint64_t>(kTriggers))
+  if (triggers.prepared >= most || areFull(triggers))
     return kWrong;
   id = ++triggers.lastId;
   Trigger &trigger = triggerAt(triggers, id);
@@ -163,6 +162,16 @@ int16_t prepareTrigger(Triggers &triggers, uint64_t cycle, const TriggerPlace &p
   triggers.cycle = cycle;
   ++triggers.prepared;
   return 0;
+}
+
+void makeRoomForTrigger(GroupState &state) noexcept {
+  if (!areFull(state.triggers))
+    return;
+  forOpen(state.triggers, [&](Trigger &trigger) {
+    if (trigger.stage == TriggerStage::Bound &&
+        group::outcomeOf(state.motion, trigger.movement) == Outcome::Interrupted)
+      end(trigger, TriggerStage::Gone, 0);
+  });
 }
 
 void bindTriggers(GroupRef &group, uint64_t cycle, uint64_t movement, int16_t refusal) noexcept {

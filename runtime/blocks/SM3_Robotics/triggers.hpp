@@ -59,6 +59,11 @@ struct Triggers {
 /// The trigger of that id; null: there is none, or no longer.
 const Trigger *triggerOf(const Triggers &triggers, uint64_t id) noexcept;
 
+/// Whether there is no room for another one.
+inline bool areFull(const Triggers &triggers) noexcept {
+  return triggers.lastId - triggers.settledId >= static_cast<uint64_t>(kTriggers);
+}
+
 /// Prepares one: an SMC_ERROR. `cycle`: the present one, plus 1. `most`: how many a movement can
 /// have.
 int16_t prepareTrigger(Triggers &triggers, uint64_t cycle, const TriggerPlace &place, uint32_t most,

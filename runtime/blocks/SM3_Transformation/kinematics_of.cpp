@@ -243,6 +243,10 @@ Outcome join(const sm::KinematicParts &parts, AnyKinematics &kinematics, int &hi
     kinematics.arm = ArmKind::Gantry3;
   if (kinematics.arm == ArmKind::None)
     return Outcome::NotSet;
+  if (kinematics.joints() > kMostJoints) { // of blocks that programs derive from the library's
+    kinematics = {};
+    return Outcome::WrongCoupling;
+  }
   const int armJoints = tableOf(kinematics.arm).joints;
   if (parts.eArm == sm::KinematicArm__NoPart)
     hidden = armJoints;
@@ -301,6 +305,8 @@ Outcome KinematicsOf::setTool(const Frame<double> &tool) {
   if (outcome_ != Outcome::Done)
     return outcome_;
   if (isOwn_) {
+    if (!exact::isfinite(tool.place.sum() + tool.turn.sum()))
+      return Outcome::WrongTool;
     own_.hasTool = true;
     own_.tool = tool;
     own_.toolBack = inverted(tool);

@@ -34,6 +34,11 @@ void suspend(GroupMotion &group) noexcept;
 /// A group at rest without movements goes on with those that have been kept; it is where they were.
 void resume(GroupMotion &group, const KeptPath &kept) noexcept;
 
+/// The same on a path in a system that moves, which the group follows again where it was on it. The
+/// axes are elsewhere than then: of the path only the rest of a corner in which it was is known
+/// from before, what comes after that is looked at anew.
+void resumeCarried(GroupMotion &group, const KeptPath &kept) noexcept;
+
 /// Movements that wait to be gone on with are aborted.
 void abortInterrupted(GroupMotion &group) noexcept;
 

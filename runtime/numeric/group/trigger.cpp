@@ -12,13 +12,24 @@ using exact::smaller;
 
 constexpr double kNowhere = -1.0;
 
+/// How far a product with a place is off by rounding: ends of legs are in planes through them. [u]
+double slackOf(const Vector3 &place, double more, const Plane &plane) noexcept {
+  constexpr double kRounding = 1e-12;
+  return kRounding * (numeric::norm(place) + more + exact::fabs(plane.distance));
+}
+
 double lineInPlane(const Leg &leg, const Plane &plane) noexcept {
   const double slope = numeric::dot(plane.normal, leg.first);
   const double height = plane.distance - numeric::dot(plane.normal, leg.start);
+  const double slack = slackOf(leg.start, leg.length, plane);
+  if (exact::fabs(height) <= slack)
+    return 0.0;
   if (slope == 0.0)
-    return height == 0.0 ? 0.0 : kNowhere;
+    return kNowhere;
   const double way = height / slope;
-  return way >= 0.0 && way <= leg.length ? way : kNowhere;
+  if (way >= 0.0 && way <= leg.length)
+    return way;
+  return exact::fabs(height - slope * leg.length) <= slack ? leg.length : kNowhere;
 }
 
 /// a * cos + b * sin = height, solved for the first angle from 0 on.
@@ -26,11 +37,13 @@ double circleInPlane(const Leg &leg, const Plane &plane) noexcept {
   const double a = numeric::dot(plane.normal, leg.first);
   const double b = numeric::dot(plane.normal, leg.second);
   const double height = plane.distance - numeric::dot(plane.normal, leg.start);
-  const double square = a * a + b * b - height * height;
-  if (a * a + b * b == 0.0)
-    return height == 0.0 ? 0.0 : kNowhere;
-  if (square < 0.0)
+  const double slack = slackOf(leg.start, leg.radius, plane);
+  if (exact::fabs(height - a) <= slack)
+    return 0.0;
+  const double most = exact::sqrt(a * a + b * b);
+  if (most == 0.0 || exact::fabs(height) > most + slack)
     return kNowhere;
+  const double square = exact::larger(a * a + b * b - height * height, 0.0);
   constexpr double kTurn = 6.283185307179586;
   const double middle = kinematics::angleOf(b, a);
   const double beside = kinematics::angleOf(exact::sqrt(square), height);
@@ -40,10 +53,14 @@ double circleInPlane(const Leg &leg, const Plane &plane) noexcept {
         leg.radius * (angle - kTurn * exact::floor(angle / kTurn)); // the first from 0 on
     best = smaller(best, way);
   }
-  return best <= leg.length ? best : kNowhere;
+  if (best <= leg.length)
+    return best;
+  const kinematics::TurnOf<double> end = kinematics::turnBy(leg.length / leg.radius);
+  return exact::fabs(height - (a * end.c + b * end.s)) <= slack ? leg.length : kNowhere;
 }
 
-/// How far from the plane a place of a leg is; false: no axes bring the tool there.
+/// How far from the plane a place of a leg is, 0 also but for rounding; false: no axes bring the
+/// tool there.
 bool heightAt(const Arm &arm, const Leg &leg, const Plane &plane, double way,
               double &height) noexcept {
   PathPlace place;
@@ -60,6 +77,8 @@ bool heightAt(const Arm &arm, const Leg &leg, const Plane &plane, double way,
       return false;
   }
   height = numeric::dot(plane.normal, plain(tool.place)) - plane.distance;
+  if (exact::fabs(height) <= slackOf(plain(tool.place), 0.0, plane))
+    height = 0.0;
   return true;
 }
 

@@ -152,6 +152,18 @@ bool isFinite(const double *numbers, int count) {
   return true;
 }
 
+/// Whether measures are numbers whose fourth powers (bendArm) are numbers, too, and are not lost.
+bool areMeasures(const double *numbers, int count) {
+  constexpr double kLeast = 1e-50;
+  constexpr double kMost = 1e50;
+  for (int i = 0; i < count; ++i) {
+    const double size = exact::fabs(numbers[i]);
+    if (!(size <= kMost) || (size < kLeast && size > 0.0))
+      return false;
+  }
+  return true;
+}
+
 /// Whether the parts have a way back from a pose.
 bool fitTogether(const AnyKinematics &kinematics) {
   if (kinematics.hand == HandKind::None)
@@ -249,6 +261,8 @@ Outcome inverseOf(const AnyKinematics &kinematics, const Frame<Scalar> &tool, Po
   for (int i = 0; i < count; ++i) {
     const bool turns = (turning >> i & 1U) != 0;
     axes[i] = (turns ? joints[i] / kDegree : joints[i]) + Scalar(kinematics.offset[i]);
+    if (!exact::isfinite(valueIn(axes[i])))
+      return Outcome::Unreachable; // the pose is none of numbers, or much too far
     if (!bringIntoRange(kinematics.range[i], turns, valueIn(axes[i])))
       outcome = Outcome::OutOfLimits;
   }
@@ -385,10 +399,12 @@ double AnyKinematics::reach() const {
 Outcome AnyKinematics::check() const {
   if (arm == ArmKind::None)
     return Outcome::NotSet;
+  if (joints() > kMostJoints)
+    return Outcome::WrongCoupling;
   const ArmTable &table = tableOf(arm);
   const int handMeasures = hand == HandKind::None ? 0 : tableOf(hand).measures;
-  if (!isFinite(armMeasure, table.measures) || !isFinite(handMeasure, handMeasures) ||
-      !isFinite(offset, joints()))
+  if (!areMeasures(armMeasure, table.measures) || !areMeasures(handMeasure, handMeasures) ||
+      !areMeasures(offset, joints()))
     return Outcome::WrongMeasures;
   const double zero[kMostJoints] = {};
   Frame<double> pose;

@@ -29,6 +29,15 @@ Outcome hangFromThree(const Vector<Scalar> (&centre)[3], double length, Vector<S
   return Outcome::Done;
 }
 
+/// Whether a point hangs from three others on the side on which hangFromThree has it: on the other
+/// one it is that of rods that have been put together otherwise. [u]
+inline bool hangs(const Vector<double> (&centre)[3], double length, const Vector<double> &point) {
+  constexpr double kRounding = 1e-9;
+  const Vector<double> normal = (centre[1] - centre[0]).cross(centre[2] - centre[0]);
+  const double side = normal(2) > 0 ? 1.0 : -1.0;
+  return side * normal.dot(point - centre[0]) <= kRounding * length * normal.norm();
+}
+
 /// Directions of three columns or motors around a middle, a third of a turn apart.
 template <class Scalar> Vector<Scalar> thirdOfRing(double firstAngle, int index) {
   const TurnOf<double> turn = turnBy(firstAngle + 2 * kPi / 3 * index);
@@ -47,29 +56,37 @@ struct TripodLinear {
   double outerRadius; ///< circle about the origin on which the rails meet z = 0 [u]
   double innerRadius; ///< circle of the plate on which the rods end [u]
   double rod;         ///< length of the rods [u]
-  double lean; ///< of the rails against upright; positive: they come inwards on the way down [rad]
-  double firstAngle; ///< where the first rail is, from x towards y [rad]
+  double lean;        ///< of the rails against upright, at most a quarter turn; positive: they come
+                      ///< inwards on the way down [rad]
+  double firstAngle;  ///< where the first rail is, from x towards y [rad]
 
   double reach() const noexcept { return rod; }
   Posture postureOf(const double *) const noexcept { return {}; }
 
+  bool areGood() const noexcept { return rod > 0 && exact::fabs(lean) <= kPi / 2; }
+
   template <class Scalar> Outcome forward(const Scalar *joints, Frame<Scalar> &pose) const {
-    if (!(rod > 0))
+    if (!areGood())
       return Outcome::WrongMeasures;
-    const TurnOf<double> rail = turnBy(lean);
     Vector<Scalar> centre[3];
+    setSlides(joints, centre);
+    pose.turn = Matrix<Scalar>::Identity();
+    return hangFromThree(centre, rod, pose.place);
+  }
+
+  /// Where the rods begin, moved inwards by the plate's circle. [u]
+  template <class Scalar> void setSlides(const Scalar *joints, Vector<Scalar> (&centre)[3]) const {
+    const TurnOf<double> rail = turnBy(lean);
     for (int i = 0; i < 3; ++i) {
       centre[i] = thirdOfRing<Scalar>(firstAngle, i) *
                   (Scalar(outerRadius - innerRadius) - joints[i] * Scalar(rail.s));
       centre[i](2) = -joints[i] * Scalar(rail.c);
     }
-    pose.turn = Matrix<Scalar>::Identity();
-    return hangFromThree(centre, rod, pose.place);
   }
 
   template <class Scalar>
   Outcome inverse(const Frame<Scalar> &pose, Posture, const double *, Scalar *joints) const {
-    if (!(rod > 0))
+    if (!areGood())
       return Outcome::WrongMeasures;
     const TurnOf<double> rail = turnBy(lean);
     for (int i = 0; i < 3; ++i) {
@@ -84,7 +101,14 @@ struct TripodLinear {
         return Outcome::Unreachable;
       joints[i] = middle - rootOf(rest); // the slide is above the plate
     }
-    return Outcome::Done;
+    Vector<double> centre[3];
+    double way[3];
+    for (int i = 0; i < 3; ++i)
+      way[i] = valueOf(joints[i]);
+    setSlides(way, centre);
+    const Vector<double> point(valueOf(pose.place(0)), valueOf(pose.place(1)),
+                               valueOf(pose.place(2)));
+    return hangs(centre, rod, point) ? Outcome::Done : Outcome::Unreachable;
   }
 };
 
@@ -134,14 +158,20 @@ struct TripodRotary {
     if (!(upperArm > 0 && rod > 0 && height >= 0))
       return Outcome::WrongMeasures;
     Vector<Scalar> centre[3];
+    setElbows(height, joints, centre);
+    pose.turn = Matrix<Scalar>::Identity();
+    return hangFromThree(centre, rod, pose.place);
+  }
+
+  /// Where the rods begin, moved inwards by the plate's circle. [u]
+  template <class Scalar>
+  void setElbows(double height, const Scalar *joints, Vector<Scalar> (&centre)[3]) const {
     for (int i = 0; i < 3; ++i) {
       const TurnOf<Scalar> arm = turnBy(joints[i]);
       centre[i] = thirdOfRing<Scalar>(firstAngle, i) *
                   (Scalar(motorRadius - plateRadius) + Scalar(upperArm) * arm.c);
       centre[i](2) = Scalar(height) - Scalar(upperArm) * arm.s;
     }
-    pose.turn = Matrix<Scalar>::Identity();
-    return hangFromThree(centre, rod, pose.place);
   }
 
   template <class Scalar>
@@ -158,7 +188,14 @@ struct TripodRotary {
       if (!swing(upperArm, rod, out, down, aside, reference[i], joints[i]))
         return Outcome::Unreachable;
     }
-    return Outcome::Done;
+    Vector<double> centre[3];
+    double angle[3];
+    for (int i = 0; i < 3; ++i)
+      angle[i] = valueOf(joints[i]);
+    setElbows(height, angle, centre);
+    const Vector<double> point(valueOf(pose.place(0)), valueOf(pose.place(1)),
+                               valueOf(pose.place(2)));
+    return hangs(centre, rod, point) ? Outcome::Done : Outcome::Unreachable;
   }
 };
 
@@ -184,12 +221,7 @@ struct BipodRotary {
       return Outcome::WrongMeasures;
     Scalar x[2];
     Scalar y[2];
-    for (int i = 0; i < 2; ++i) {
-      const TurnOf<Scalar> arm = turnBy(joints[i]);
-      const Scalar out = Scalar((motorDistance - plateDistance) / 2) + Scalar(upperArm) * arm.c;
-      x[i] = i == 0 ? -out : out;
-      y[i] = -Scalar(upperArm) * arm.s;
-    }
+    setElbows(joints, x, y);
     const Scalar half(0.5);
     const Scalar acrossX = (x[1] - x[0]) * half;
     const Scalar acrossY = (y[1] - y[0]) * half;
@@ -201,6 +233,17 @@ struct BipodRotary {
     pose = unturned(Vector<Scalar>((x[0] + x[1]) * half + acrossY * down,
                                    (y[0] + y[1]) * half - acrossX * down, Scalar(0.0)));
     return Outcome::Done;
+  }
+
+  /// Where the rods begin, moved inwards by half of plateDistance. [u]
+  template <class Scalar>
+  void setElbows(const Scalar *joints, Scalar (&x)[2], Scalar (&y)[2]) const {
+    for (int i = 0; i < 2; ++i) {
+      const TurnOf<Scalar> arm = turnBy(joints[i]);
+      const Scalar out = Scalar((motorDistance - plateDistance) / 2) + Scalar(upperArm) * arm.c;
+      x[i] = i == 0 ? -out : out;
+      y[i] = -Scalar(upperArm) * arm.s;
+    }
   }
 
   template <class Scalar>
@@ -215,7 +258,21 @@ struct BipodRotary {
       if (!swing(upperArm, rod, out, down, Scalar(0.0), reference[i], joints[i]))
         return Outcome::Unreachable;
     }
-    return Outcome::Done;
+    return hangs(joints, pose) ? Outcome::Done : Outcome::Unreachable;
+  }
+
+  /// Whether the tool is on the side of both elbows on which `forward` has it.
+  template <class Scalar> bool hangs(const Scalar *joints, const Frame<Scalar> &pose) const {
+    constexpr double kRounding = 1e-9;
+    const double angle[2] = {valueOf(joints[0]), valueOf(joints[1])};
+    double x[2];
+    double y[2];
+    setElbows(angle, x, y);
+    const double acrossX = x[1] - x[0];
+    const double acrossY = y[1] - y[0];
+    const double side =
+        acrossX * (valueOf(pose.place(1)) - y[0]) - acrossY * (valueOf(pose.place(0)) - x[0]);
+    return side <= kRounding * rod * ::stride::sqrt(acrossX * acrossX + acrossY * acrossY);
   }
 };
 

@@ -1,0 +1,33 @@
+// For the sources of axis groups: whether the axes go along where the tool leads.
+#ifndef STRIDE_RUNTIME_BLOCKS_SM3_ROBOTICS_TOOL_LED_HPP
+#define STRIDE_RUNTIME_BLOCKS_SM3_ROBOTICS_TOOL_LED_HPP
+
+#include "runtime/blocks/SM3_Robotics/requests.hpp"
+
+namespace stride::robotics {
+
+/// Whether axes bring the tool's point to a place: what a kinematics cannot choose it does not look
+/// at.
+bool reaches(const group::Arm &arm, const double *axes, const kinematics::Vector<double> &place);
+
+/// Axes that bring the tool into a pose, as far as the kinematics chooses it; its place they reach
+/// in any case. An SMC_ERROR.
+int16_t axesFor(const group::Arm &arm, const kinematics::Frame<double> &pose,
+                const kinematics::Configuration &configuration, const double *reference,
+                double *axes);
+
+/// Why the tool cannot lead from where the axes are, or 0: some machines have positions that their
+/// kinematics never chooses, so that the axes would jump. An SMC_ERROR.
+int16_t whyNotFrom(const group::Arm &arm, const double (&axes)[kAxes]);
+
+/// The axes at the end of a leg, from ends.from on. It is looked at in `parts`: an axis may turn
+/// far along it, and the tool has to be on it everywhere. An SMC_ERROR.
+int16_t followLeg(const group::Arm &arm, const group::Leg &leg, int32_t parts, Ends &ends);
+
+/// Sees to it that ends.to is where the axes come to at the end of a line: whole turns may be
+/// others. An SMC_ERROR if nothing else than turns is.
+int16_t settleLine(const group::Arm &arm, const group::Leg &leg, Ends &ends);
+
+} // namespace stride::robotics
+
+#endif // STRIDE_RUNTIME_BLOCKS_SM3_ROBOTICS_TOOL_LED_HPP
