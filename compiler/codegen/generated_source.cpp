@@ -57,6 +57,11 @@ void closeBudget(Writer &text, const Uses &uses) {
   text.endLine();
 }
 
+/// Where callers are beside it.
+bool isWorthInlining(Context &run, const PouSymbol *pou) {
+  return run.repetition.isRepeated(pou) ? isInlinable(pou) : isTiny(pou);
+}
+
 std::string openSpace(Context &run) {
   return "\nnamespace st::" + std::string(run.names.space(run.own)) + " {\n";
 }
@@ -376,7 +381,7 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
   head += sourcePrelude();
   lines(file, head + openSpace(run));
   const bool isHinted = single && own != nullptr && own->kind == SymbolKind::Pou &&
-                        isInlinable(static_cast<const PouSymbol *>(own));
+                        isWorthInlining(run, static_cast<const PouSymbol *>(own));
   for (const Piece &piece : pieces_) {
     file.blank();
     if (isHinted && piece.isBody)

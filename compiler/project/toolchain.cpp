@@ -163,9 +163,13 @@ std::vector<std::string> compileFlags(const Installation &installation, bool deb
   else
     // Aligned, so that the speed of a loop does not depend on what lies before it; with line
     // tables and all frames, so that an exception can say where it came from; a part of a function
-    // that is inlined into the rest of it would look like a recursion there.
+    // that is inlined into the rest of it would look like a recursion there. Pairs of numbers
+    // that are put into one register on their way through memory wait for each other (n_body runs
+    // twice as long), and the elimination of common subexpressions on RTL finds next to nothing
+    // that other passes have left: tests/bench/st measures both.
     flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls", "-fno-partial-inlining",
-                               "-falign-functions=64", "-falign-loops=32"});
+                               "-falign-functions=64", "-falign-loops=32",
+                               "-fno-tree-slp-vectorize", "-fno-gcse"});
   // The installation has the last word: one with sanitizers does not optimise.
   flags.insert(flags.end(), installation.compileFlags.begin(), installation.compileFlags.end());
   return flags;

@@ -126,7 +126,7 @@ void emitFunctionArguments(EmitContext &cx, const CallExpr *e,
   if (e->resolved == Callee::Method) {
     openMethodCall(cx, objectOf(e), e->pou, e->callee->span);
   } else {
-    cx.includes.called(e->pou);
+    cx.includes.called(e->pou, cx.run.repetition.callsOften(cx.pou, e->pou));
     cx.out << cx.run.names.qualified(e->pou) << '(' << cx.ctx();
   }
   size_t k = 0;
@@ -429,7 +429,7 @@ void emitOutputTo(EmitContext &cx, const Expr *target, std::string_view source,
 }
 
 void emitInstanceCall(EmitContext &cx, const CallExpr *e, Span span) {
-  cx.includes.called(e->pou);
+  cx.includes.called(e->pou, cx.run.repetition.callsOften(cx.pou, e->pou));
   InstanceCall(cx, e).emit(span);
 }
 

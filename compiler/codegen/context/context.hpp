@@ -6,6 +6,7 @@
 #include "compiler/codegen/analysis/addressed.hpp"
 #include "compiler/codegen/analysis/analysis.hpp"
 #include "compiler/codegen/analysis/loop_locals.hpp"
+#include "compiler/codegen/analysis/repetition.hpp"
 #include "compiler/codegen/cpp/layout.hpp"
 #include "compiler/codegen/cpp/names.hpp"
 #include "compiler/codegen/cpp/roots.hpp"
@@ -30,10 +31,11 @@ struct Context {
   Analysis analysis;
   LoopLocals loopLocals;
   Addressed addressed;
+  Repetition repetition;
 
   Context(const Program &p, const Library *library)
       : program(p), own(library), names(p), layouts(p, library), analysis(p), loopLocals(analysis),
-        addressed(p, library) {}
+        addressed(p, library), repetition(p, library) {}
 };
 
 /// What the call's context is called in the code of POUs.

@@ -9,10 +9,14 @@ using namespace ast;
 namespace {
 
 constexpr int kLimit = 160;
+/// Not larger than a call of it.
+constexpr int kTiny = 12;
 
 /// Counts nodes until there are too many.
 class Size {
 public:
+  explicit Size(int limit) : left_(limit) {}
+
   [[nodiscard]] bool fits() const { return left_ >= 0; }
 
   void block(Block block) {
@@ -57,18 +61,22 @@ private:
     });
   }
 
-  int left_ = kLimit;
+  int left_;
 };
 
-} // namespace
-
-bool isInlinable(const PouSymbol *pou) {
+bool fits(const PouSymbol *pou, int limit) {
   const DeclKind kind = pou->decl->kind;
   if ((kind != DeclKind::Function && kind != DeclKind::FunctionBlock) || pou->decl->external)
     return false;
-  Size size;
+  Size size(limit);
   size.block(pou->decl->body);
   return size.fits();
 }
+
+} // namespace
+
+bool isInlinable(const PouSymbol *pou) { return fits(pou, kLimit); }
+
+bool isTiny(const PouSymbol *pou) { return fits(pou, kTiny); }
 
 } // namespace stc::codegen

@@ -378,9 +378,9 @@ void Includes::pointed(const Type *type) {
     declared_.push_back(s);
 }
 
-void Includes::called(const PouSymbol *pou) {
+void Includes::called(const PouSymbol *pou, bool often) {
   symbol(pou);
-  if (isInlinable(pou))
+  if (often ? isInlinable(pou) : isTiny(pou))
     bodies_.insert(pou);
 }
 

@@ -104,8 +104,9 @@ public:
     last_ = symbol;
   }
 
-  /// The header of a POU that is called, with its body where that is small.
-  void called(const PouSymbol *pou);
+  /// The header of a POU that is called, with its body where that is small; one that is not called
+  /// often must be tiny.
+  void called(const PouSymbol *pou, bool often);
 
   /// An assertion is made.
   void assertion() { needsAssertions_ = true; }

@@ -23,7 +23,7 @@ ROOT = HERE.parents[2]
 FLAGS = ["-std=c++20", "-fPIC", "-fwrapv", "-fno-strict-aliasing", "-fno-finite-loops",
          "-fno-delete-null-pointer-checks", "-ffp-contract=off", "-fvisibility=hidden", "-fno-rtti",
          "-O2", "-g1", "-fno-optimize-sibling-calls", "-fno-partial-inlining", "-falign-functions=64",
-         "-falign-loops=32"]
+         "-falign-loops=32", "-fno-tree-slp-vectorize", "-fno-gcse"]
 # What no generated code of the suite may call: the heap, the C++ library's machinery.
 FORBIDDEN = re.compile(r"\b(malloc|calloc|realloc|free|_Zn[wa]\w*|_Zd[la]\w*|__cxa_pure_virtual|_ZTV\w*)$")
 

@@ -66,6 +66,49 @@ TEST(CodegenChoices, SmallBodiesAreInlined) {
   EXPECT_FALSE(isInlined("WHILE F < n DO F := F + 1; END_WHILE")); // a loop outweighs its call
 }
 
+namespace {
+
+/// Whether Main.cpp takes the body of F; `others` besides, and the statements of Main.
+bool takesBody(const std::string &others, const std::string &statements) {
+  std::string sum = "F := n";
+  for (int i = 0; i < 20; ++i)
+    sum += " + n * n";
+  const std::string main =
+      mainOf("FUNCTION F : INT VAR_INPUT n : INT; END_VAR " + sum + "; END_FUNCTION\n" + others +
+             "PROGRAM Main VAR i, x : INT; END_VAR\n" + statements + "\nEND_PROGRAM\n");
+  const bool body = main.find("\"st/user/F.inline.h\"") != std::string::npos;
+  EXPECT_NE(body, main.find("\"st/user/F.h\"") != std::string::npos) << main;
+  return body;
+}
+
+} // namespace
+
+TEST(CodegenChoices, BodiesAreInlinedWhereTheyRunOften) {
+  EXPECT_FALSE(takesBody("", "x := F(3);"));
+  EXPECT_FALSE(takesBody("", "x := F(3); FOR i := 0 TO 9 DO x := x + 1; END_FOR"));
+  EXPECT_TRUE(takesBody("", "FOR i := 0 TO 9 DO x := x + F(i); END_FOR"));
+  EXPECT_TRUE(takesBody("", "WHILE F(x) < 9 DO x := x + 1; END_WHILE"));
+  EXPECT_TRUE(takesBody("", "REPEAT x := x + 1; UNTIL F(x) > 9 END_REPEAT"));
+  EXPECT_TRUE(takesBody("", "FOR i := 0 TO 9 DO IF i > 3 THEN x := x + F(i); END_IF END_FOR"));
+  EXPECT_TRUE(takesBody("", "again: x := F(x); IF x < 9 THEN JMP again; END_IF"));
+  // By a loop of a caller further up, or calling itself.
+  const auto up = [](const std::string &text) {
+    return "PROGRAM Up VAR i : INT; END_VAR " + text + " END_PROGRAM\n";
+  };
+  EXPECT_TRUE(takesBody(up("FOR i := 0 TO 3 DO Main(); END_FOR"), "x := F(3);"));
+  EXPECT_FALSE(takesBody(up("Main();"), "x := F(3);"));
+  EXPECT_TRUE(takesBody(up("IF i > 0 THEN Main(); END_IF"), "x := F(3); Up();"));
+}
+
+TEST(CodegenChoices, TinyBodiesAreInlinedEverywhere) {
+  const auto main = [](const std::string &body) {
+    return mainOf("FUNCTION F : INT VAR_INPUT n : INT; END_VAR " + body +
+                  " END_FUNCTION PROGRAM Main VAR x : INT; END_VAR x := F(3); END_PROGRAM\n");
+  };
+  EXPECT_THAT(main("F := n + n + n + n + n;"), HasSubstr("F.inline.h")); // 1 + 1 + 9 nodes
+  EXPECT_THAT(main("F := n + n + n + n + n + n;"), Not(HasSubstr("F.inline.h")));
+}
+
 TEST(CodegenChoices, LocalsWithAnAddressAreOnTheDataStack) {
   const std::string text = fileText(generate({{"Main.st", R"(
 FUNCTION_BLOCK Base
