@@ -112,12 +112,47 @@ private:
     one.initial = is("INITIAL_STEP");
     ++at_;
     one.name = takeName();
+    if (is("("))
+      stepTimes(one);
     take(":");
     good_ = good_ && !is("=");
     while (good_ && !is("END_STEP"))
       one.actions.push_back(action());
     finish(one.comment);
     out_.steps.push_back(std::move(one));
+  }
+
+  /// `(MIN_TIME := T#1s, MAX_TIME := x)`
+  void stepTimes(ChartStepText &one) {
+    ++at_;
+    const std::string all = textUpTo(")");
+    take(")");
+    for (const std::string_view part : partsOf(all)) {
+      const size_t sign = part.find(":=");
+      good_ = good_ && sign != std::string_view::npos;
+      if (!good_)
+        return;
+      const bool least = equalIgnoringCase(trimmed(part.substr(0, sign)), "MIN_TIME");
+      (least ? one.minTime : one.maxTime) = trimmed(part.substr(sign + 2));
+    }
+  }
+
+  /// What stands between commas outside of brackets.
+  static std::vector<std::string_view> partsOf(std::string_view all) {
+    std::vector<std::string_view> parts;
+    size_t depth = 0;
+    size_t begin = 0;
+    for (const StWord &each : wordsOf(all)) {
+      const char sign = all[each.begin];
+      depth += sign == '(' || sign == '[' ? 1 : 0;
+      depth -= sign == ')' || sign == ']' ? 1 : 0;
+      if (sign != ',' || depth != 0)
+        continue;
+      parts.push_back(trimmed(all.substr(begin, each.begin - begin)));
+      begin = each.end;
+    }
+    parts.push_back(trimmed(all.substr(begin)));
+    return parts;
   }
 
   ChartActionText action() {
@@ -146,18 +181,10 @@ private:
       one.indicator = all;
       return;
     }
-    size_t depth = 0;
-    for (const StWord &each : wordsOf(all)) {
-      const char sign = all[each.begin];
-      depth += sign == '(' || sign == '[' ? 1 : 0;
-      depth -= sign == ')' || sign == ']' ? 1 : 0;
-      if (sign != ',' || depth != 0)
-        continue;
-      one.time = trimmed(std::string_view(all).substr(0, each.begin));
-      one.indicator = trimmed(std::string_view(all).substr(each.end));
-      return;
-    }
-    one.time = all;
+    const std::string_view time = partsOf(all).front();
+    one.time = time;
+    if (const size_t end = time.data() + time.size() - all.data(); end < all.size())
+      one.indicator = trimmed(std::string_view(all).substr(all.find(',', end) + 1));
   }
 
   std::vector<std::string> steps() {

@@ -20,6 +20,8 @@ struct ChartActionText {
 struct ChartStepText {
   std::string name;
   bool initial = false;
+  std::string minTime; ///< expressions; empty: none
+  std::string maxTime;
   std::vector<ChartActionText> actions;
   std::string comment; ///< before it and in it, without signs; lines end with \n
 };

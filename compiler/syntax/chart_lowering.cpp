@@ -47,10 +47,11 @@ private:
     target_.variables.push_back(node);
     return node;
   }
-  void declareBool(const Name &what, Section section) {
-    target_.variables.push_back(make_.declaration(what, {"BOOL"}, section));
+  void declareHidden(const Name &what, const char *type, Section section) {
+    target_.variables.push_back(make_.declaration(what, {type}, section));
     make_.hide(target_.variables.back());
   }
+  void declareBool(const Name &what, Section section) { declareHidden(what, "BOOL", section); }
   /// The variable when the POU declares it.
   [[nodiscard]] const VarDecl *declared(std::string_view what) const;
   [[nodiscard]] bool hasFlag(const char *what) const { return declared(what) != nullptr; }
@@ -59,6 +60,8 @@ private:
   }
   /// Whether one of the flags is TRUE; null: none of them is declared.
   Expr *anyFlag(std::initializer_list<const char *> flags);
+  /// Whether a flag lets nothing happen; null: none of them is declared.
+  Expr *anyStop(bool init);
   Expr *anyStep();
 
   /// Whether nothing of the POU or the chart has this name.
@@ -71,6 +74,12 @@ private:
   void tip(Statements &out);
   Statements condition(size_t i);
   void transitions(Statements &out);
+  /// The variable of a time that a step has; computed once, whatever its expression does.
+  Expr *limit(const std::string &what, Expr *time, Statements &out);
+  [[nodiscard]] Expr *left(const ChartStep &step);
+  void watch(const ChartStep &step, const std::string &number, Statements &out);
+  void forgetError(Statements &out);
+  void quitError(Statements &out);
   void steps(Statements &out);
   void start(Statements &out);
   void resetFlags(Statements &out);
@@ -101,6 +110,18 @@ Expr *ChartLowering::anyFlag(std::initializer_list<const char *> flags) {
   for (const char *one : flags)
     if (hasFlag(one))
       list.push_back(flag(one));
+  return make_.combined(BinaryOp::LogicalOr, list);
+}
+
+Expr *ChartLowering::anyStop(bool init) {
+  std::vector<Expr *> list;
+  for (const char *one : {"SFCInit", "SFCPause", "SFCQuitError"}) {
+    const bool counts = one == std::string_view("SFCInit")        ? init
+                        : one == std::string_view("SFCQuitError") ? hasFlag("SFCError")
+                                                                  : true;
+    if (counts && hasFlag(one))
+      list.push_back(flag(one));
+  }
   return make_.combined(BinaryOp::LogicalOr, list);
 }
 
@@ -229,6 +250,87 @@ void ChartLowering::transitions(Statements &out) {
   }
 }
 
+Expr *ChartLowering::limit(const std::string &what, Expr *time, Statements &out) {
+  const Name name = make_.name(hidden(what), time->span);
+  declareHidden(name, "TIME", Section::Temp);
+  out.push_back(make_.assign(make_.variable(name), time));
+  return make_.variable(name);
+}
+
+/// Whether a transition leaves the step; null: there is none that could.
+Expr *ChartLowering::left(const ChartStep &step) {
+  std::vector<Expr *> all;
+  for (size_t i = 0; i < chart_.transitions.size(); ++i)
+    for (const Name &from : chart_.transitions[i].from)
+      if (from.id == step.name.id)
+        all.push_back(make_.variable(fires(i)));
+  return make_.combined(BinaryOp::LogicalOr, all);
+}
+
+/// The step has been active for too long, or is left too early: the first error is kept. A
+/// greatest time of 0 is none.
+void ChartLowering::watch(const ChartStep &step, const std::string &number, Statements &out) {
+  Statements inside;
+  std::vector<Expr *> wrong;
+  if (Expr *time = step.maxTime) {
+    Expr *longest = limit("max" + number, time, inside);
+    Expr *late = make_.binary(BinaryOp::Greater, make_.member(step.name, "t", time->span), longest);
+    Expr *some = make_.binary(BinaryOp::Greater, longest, make_.noTime(time->span));
+    wrong.push_back(make_.combined(BinaryOp::LogicalAnd, {late, some}));
+  }
+  if (Expr *time = step.minTime) {
+    Expr *shortest = limit("min" + number, time, inside);
+    Expr *early = make_.binary(BinaryOp::Less, make_.member(step.name, "t", time->span), shortest);
+    if (Expr *leaves = left(step))
+      wrong.push_back(make_.combined(BinaryOp::LogicalAnd, {leaves, early}));
+  }
+  if (hasFlag("SFCError") && !wrong.empty()) {
+    std::vector<Expr *> all = {make_.negated(flag("SFCError")),
+                               make_.combined(BinaryOp::LogicalOr, wrong)};
+    if (hasFlag("SFCEnableLimit"))
+      all.push_back(flag("SFCEnableLimit"));
+    Statements note = {make_.assign(flag("SFCError"), make_.boolean(true, step.name.span))};
+    if (hasFlag("SFCErrorStep"))
+      note.push_back(make_.assign(flag("SFCErrorStep"), make_.text(step.name)));
+    if (hasFlag("SFCErrorPOU"))
+      note.push_back(make_.assign(flag("SFCErrorPOU"),
+                                  make_.text(make_.name(std::string(target_.pou), chart_.span))));
+    inside.push_back(make_.when(make_.combined(BinaryOp::LogicalAnd, all), note));
+  }
+  if (!inside.empty())
+    out.push_back(make_.when(make_.member(step.name, "x"), inside));
+}
+
+void ChartLowering::forgetError(Statements &out) {
+  if (!hasFlag("SFCError"))
+    return;
+  out.push_back(make_.assign(flag("SFCError"), make_.boolean(false, chart_.span)));
+  for (const char *one : {"SFCErrorStep", "SFCErrorPOU"})
+    if (hasFlag(one))
+      out.push_back(make_.assign(flag(one), make_.text(make_.name("", chart_.span))));
+}
+
+/// SFCQuitError forgets the error; when it becomes FALSE, the times of the active steps begin anew.
+void ChartLowering::quitError(Statements &out) {
+  if (!hasFlag("SFCQuitError") || !hasFlag("SFCError"))
+    return;
+  const Name last = make_.name(hidden("quit"), chart_.span);
+  declareBool(last, kept());
+  Statements forget;
+  forgetError(forget);
+  out.push_back(make_.when(flag("SFCQuitError"), forget));
+  Statements anew;
+  for (const ChartStep &step : chart_.steps)
+    anew.push_back(make_.when(
+        make_.member(step.name, "x"),
+        {make_.call(step.name, {make_.argument("leave", make_.boolean(false, step.name.span)),
+                                make_.argument("enter", make_.boolean(true, step.name.span))})}));
+  Expr *ended = make_.combined(BinaryOp::LogicalAnd,
+                               {make_.variable(last), make_.negated(flag("SFCQuitError"))});
+  out.push_back(make_.when(ended, anew));
+  out.push_back(make_.assign(make_.variable(last), flag("SFCQuitError")));
+}
+
 /// Leaves and enters steps after all transitions are known.
 void ChartLowering::steps(Statements &out) {
   const auto &all = chart_.transitions;
@@ -266,6 +368,8 @@ void ChartLowering::resetFlags(Statements &out) {
   reset("SFCPause");
   reset("SFCTip");
   reset("SFCTipMode");
+  reset("SFCQuitError");
+  forgetError(out);
 }
 
 /// Only the initial step is active; the actions forget what they have stored.
@@ -364,6 +468,7 @@ void ChartLowering::lower(Statements &out) {
   if (hasFlag("SFCTrans"))
     out.push_back(make_.assign(flag("SFCTrans"), make_.boolean(false, chart_.span)));
   tip(out);
+  quitError(out);
   Statements evolve;
   for (const ChartStep &step : chart_.steps)
     evolve.push_back(make_.when(
@@ -371,6 +476,8 @@ void ChartLowering::lower(Statements &out) {
         {make_.call(step.name, {make_.argument("leave", make_.boolean(false, step.name.span)),
                                 make_.argument("enter", make_.boolean(false, step.name.span))})}));
   transitions(evolve);
+  for (size_t i = 0; i < chart_.steps.size(); ++i)
+    watch(chart_.steps[i], std::to_string(i), evolve);
   steps(evolve);
   Statements begin;
   start(begin);
@@ -379,13 +486,13 @@ void ChartLowering::lower(Statements &out) {
   std::vector<Expr *> anew = {make_.negated(anyStep())};
   if (Expr *flags = anyFlag({"SFCInit", "SFCReset"}))
     anew.push_back(flags);
-  if (Expr *paused = anyFlag({"SFCPause"}))
+  if (Expr *paused = anyStop(false))
     evolve = {make_.when(make_.negated(paused), evolve)};
   Stmt *evolution = make_.when(make_.combined(BinaryOp::LogicalOr, anew), begin, evolve);
   out.push_back(evolution);
   Statements act;
   actions(act);
-  Expr *still = anyFlag({"SFCInit", "SFCPause"});
+  Expr *still = anyStop(true);
   if (still != nullptr && !act.empty())
     act = {make_.when(make_.negated(still), act)};
   out.insert(out.end(), act.begin(), act.end());

@@ -28,6 +28,19 @@ TEST(ChartText, ReadsStepsAndActions) {
   EXPECT_EQ(actions[3].qualifier, "S");
 }
 
+TEST(ChartText, ReadsTimesOfSteps) {
+  const auto chart =
+      chartText("INITIAL_STEP A (min_time := Least(a := 1, b := 2), MAX_TIME := times[1, 2]): "
+                "Work(L, MAX(T#1s, a) (* , *) , done, other); END_STEP\n"
+                "STEP B (MAX_TIME := T#5s): END_STEP");
+  ASSERT_TRUE(chart);
+  EXPECT_EQ(chart->steps[0].minTime, "Least(a := 1, b := 2)");
+  EXPECT_EQ(chart->steps[0].maxTime, "times[1, 2]");
+  EXPECT_EQ(chart->steps[0].actions[0].indicator, "done, other");
+  EXPECT_EQ(chart->steps[1].minTime, "");
+  EXPECT_EQ(chart->steps[1].maxTime, "T#5s");
+}
+
 TEST(ChartText, ReadsTransitions) {
   const auto chart =
       chartText("STEP A: END_STEP STEP B: END_STEP STEP from: END_STEP\n"
