@@ -147,6 +147,7 @@ private:
       node.append_child("connectionPointOutAction").append_attribute("formalParameter") = "action";
     if (!one.minTime.empty() || !one.maxTime.empty())
       times(node, one);
+    addPragmas(node, one.pragmas);
     Writer::addDocumentation(node, one.comment);
     if (!one.actions.empty())
       actions(i);
@@ -156,6 +157,11 @@ private:
     lineIn(divergence, stepIds_[i]);
     for (size_t n = 0; n < leaving_[i].size(); ++n)
       lineOut(divergence);
+  }
+
+  static void addPragmas(Node node, const std::string &pragmas) {
+    if (!pragmas.empty())
+      Writer::addXhtml(Writer::addData(node, kStride, "pragmas").append_child("Pragmas"), pragmas);
   }
 
   /// As CODESYS has the properties of a step: by number.
@@ -219,6 +225,7 @@ private:
       condition.append_child("reference").append_attribute("name") = one.name.c_str();
     else
       inlineCondition(condition, one);
+    addPragmas(node, one.pragmas);
     Writer::addDocumentation(node, one.comment);
     targets(k, column, row);
   }

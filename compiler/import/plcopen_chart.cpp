@@ -203,7 +203,7 @@ private:
   std::string step(const Node &node) {
     const std::string id = attribute(node, "localId");
     const std::string name = attribute(node, "name");
-    std::string text = documentationLines(node);
+    std::string text = documentationLines(node) + linesOf(extra(node, "Pragmas"));
     std::map<Property, std::string> found = propertiesOf(node, name);
     text += commentLines(found[Property::Comment], {}, "//");
     std::string times;
@@ -322,8 +322,9 @@ private:
     const std::string priority = attribute(transition.node, "priority");
     std::string name;
     const std::string condition = conditionOf(transition.node, name);
-    return fmt::format("{}TRANSITION{}{} FROM {} TO {}{}\nEND_TRANSITION\n",
-                       documentationLines(transition.node), name.empty() ? "" : " " + name,
+    return fmt::format("{}{}TRANSITION{}{} FROM {} TO {}{}\nEND_TRANSITION\n",
+                       documentationLines(transition.node),
+                       linesOf(extra(transition.node, "Pragmas")), name.empty() ? "" : " " + name,
                        priority.empty() ? "" : fmt::format(" (PRIORITY := {})", priority),
                        list(transition.sources), list(targets), condition);
   }

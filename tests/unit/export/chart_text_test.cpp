@@ -72,10 +72,21 @@ TEST(ChartText, LeavesWhatItCannotSay) {
   EXPECT_FALSE(chartText(""));
   EXPECT_FALSE(chartText("step := 1;"));
   EXPECT_FALSE(chartText("STEP A: END_STEP x := 1;"));
-  EXPECT_FALSE(chartText("STEP A: {warning 'w'} END_STEP"));
+  EXPECT_FALSE(chartText("STEP A: END_STEP {warning 'after the last part'}"));
   EXPECT_FALSE(chartText("STEP A: Work(L, T#1s"));
   EXPECT_FALSE(chartText("STEP A: END_STEP TRANSITION (PRIORITY := 16#2) FROM A TO A := b; "
                          "END_TRANSITION"));
+}
+
+TEST(ChartText, KeepsPragmasBesideTheirParts) {
+  const auto chart =
+      chartText("{warning 'a } b'}// why\nSTEP A: {info 'in'} w; END_STEP {text 't'}\n"
+                "TRANSITION FROM A {text 'u'} TO A := b {text 'c'}; END_TRANSITION");
+  ASSERT_TRUE(chart);
+  EXPECT_EQ(chart->steps[0].pragmas, "{warning 'a } b'}\n{info 'in'}\n");
+  EXPECT_EQ(chart->steps[0].comment, "why\n");
+  EXPECT_EQ(chart->transitions[0].pragmas, "{text 't'}\n{text 'u'}\n");
+  EXPECT_EQ(chart->transitions[0].condition, "b {text 'c'}");
 }
 
 /// A time where the qualifier has one; what follows are indicator variables.
