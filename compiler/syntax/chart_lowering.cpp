@@ -1,7 +1,6 @@
 // A chart as Structured Text. Each call: the steps' times, the transitions, the steps that they
 // leave and enter (all at once), the action controls, the final scans, the actions.
-#include "compiler/syntax/chart.hpp"
-#include "compiler/syntax/chart_nodes.hpp"
+#include "compiler/syntax/chart_flags.hpp"
 
 #include <algorithm>
 #include <map>
@@ -15,16 +14,13 @@ using namespace ast;
 
 namespace {
 
-class ChartLowering {
+class ChartLowering : private ChartFlags {
 public:
-  ChartLowering(const Chart &chart, const ChartTarget &target)
-      : chart_(chart), target_(target), make_(target.interner, target.arena),
-        declared_(target.variables.begin(), target.variables.end()) {}
+  ChartLowering(const Chart &chart, const ChartTarget &target) : ChartFlags(chart, target) {}
 
   void lower(std::vector<Stmt *> &out);
 
 private:
-  using Statements = ChartNodes::Statements;
   /// An action, with all places that name it.
   struct Use {
     Name name;
@@ -32,14 +28,6 @@ private:
     std::vector<std::pair<const ChartStep *, const ChartAction *>> places;
   };
 
-  /// Of a variable that the program does not see: unlike those of the blocks that this one extends.
-  std::string hidden(const std::string &what) const {
-    return "sfc__" + std::string(target_.pou) + "__" + what;
-  }
-  /// Where what lives from call to call is declared: a member keeps it in its block.
-  [[nodiscard]] Section kept() const {
-    return target_.ofMember ? Section::Instance : Section::Local;
-  }
   /// A variable of a step or an action, which the program may read.
   VarDecl *declareOpen(const Name &what, const char *type) {
     VarDecl *node = make_.declaration(what, {"__SYSTEM", type}, kept());
@@ -47,39 +35,15 @@ private:
     target_.variables.push_back(node);
     return node;
   }
-  void declareHidden(const Name &what, const char *type, Section section) {
-    target_.variables.push_back(make_.declaration(what, {type}, section));
-    make_.hide(target_.variables.back());
-  }
-  void declareBool(const Name &what, Section section) { declareHidden(what, "BOOL", section); }
-  /// The variable when the POU declares it.
-  [[nodiscard]] const VarDecl *declared(std::string_view what) const;
-  [[nodiscard]] bool hasFlag(const char *what) const { return declared(what) != nullptr; }
-  Expr *flag(const char *what) {
-    return make_.variable(make_.name(what, declared(what)->name.span));
-  }
-  /// Whether one of the flags is TRUE; null: none of them is declared.
-  Expr *anyFlag(std::initializer_list<const char *> flags);
-  /// Whether a flag lets nothing happen; null: none of them is declared.
-  Expr *anyStop(bool init);
   Expr *anyStep();
 
   /// Whether nothing of the POU or the chart has this name.
   [[nodiscard]] bool isFree(const std::string &what);
   void collect();
-  Name fires(size_t i) {
-    return make_.name(hidden("fire" + std::to_string(i)), chart_.transitions[i].span);
-  }
   std::vector<size_t> order() const;
   void tip(Statements &out);
   Statements condition(size_t i);
   void transitions(Statements &out);
-  /// The variable of a time that a step has; computed once, whatever its expression does.
-  Expr *limit(const std::string &what, Expr *time, Statements &out);
-  [[nodiscard]] Expr *left(const ChartStep &step);
-  void watch(const ChartStep &step, const std::string &number, Statements &out);
-  void forgetError(Statements &out);
-  void quitError(Statements &out);
   void steps(Statements &out);
   void start(Statements &out);
   void resetFlags(Statements &out);
@@ -89,41 +53,10 @@ private:
   Stmt *control(const Use &use);
   void currentStep(Statements &out);
 
-  const Chart &chart_;
-  const ChartTarget &target_;
-  ChartNodes make_;
-  std::vector<const VarDecl *> declared_; ///< by the POU itself
-  std::vector<Use> uses_;                 ///< in the order of the text
-  std::map<Ident, size_t> useOf_;         ///< of an action
-  std::set<std::string> taken_;           ///< names of the POU and the chart, in lower case
+  std::vector<Use> uses_;         ///< in the order of the text
+  std::map<Ident, size_t> useOf_; ///< of an action
+  std::set<std::string> taken_;   ///< names of the POU and the chart, in lower case
 };
-
-const VarDecl *ChartLowering::declared(std::string_view what) const {
-  const auto found = std::find_if(declared_.begin(), declared_.end(), [&](const VarDecl *one) {
-    return equalIgnoringCase(one->name.text, what);
-  });
-  return found == declared_.end() ? nullptr : *found;
-}
-
-Expr *ChartLowering::anyFlag(std::initializer_list<const char *> flags) {
-  std::vector<Expr *> list;
-  for (const char *one : flags)
-    if (hasFlag(one))
-      list.push_back(flag(one));
-  return make_.combined(BinaryOp::LogicalOr, list);
-}
-
-Expr *ChartLowering::anyStop(bool init) {
-  std::vector<Expr *> list;
-  for (const char *one : {"SFCInit", "SFCPause", "SFCQuitError"}) {
-    const bool counts = one == std::string_view("SFCInit")        ? init
-                        : one == std::string_view("SFCQuitError") ? hasFlag("SFCError")
-                                                                  : true;
-    if (counts && hasFlag(one))
-      list.push_back(flag(one));
-  }
-  return make_.combined(BinaryOp::LogicalOr, list);
-}
 
 Expr *ChartLowering::anyStep() {
   std::vector<Expr *> list;
@@ -248,87 +181,6 @@ void ChartLowering::transitions(Statements &out) {
       out.push_back(make_.when(make_.variable(fire),
                                {make_.assign(flag("SFCTrans"), make_.boolean(true, one.span))}));
   }
-}
-
-Expr *ChartLowering::limit(const std::string &what, Expr *time, Statements &out) {
-  const Name name = make_.name(hidden(what), time->span);
-  declareHidden(name, "TIME", Section::Temp);
-  out.push_back(make_.assign(make_.variable(name), time));
-  return make_.variable(name);
-}
-
-/// Whether a transition leaves the step; null: there is none that could.
-Expr *ChartLowering::left(const ChartStep &step) {
-  std::vector<Expr *> all;
-  for (size_t i = 0; i < chart_.transitions.size(); ++i)
-    for (const Name &from : chart_.transitions[i].from)
-      if (from.id == step.name.id)
-        all.push_back(make_.variable(fires(i)));
-  return make_.combined(BinaryOp::LogicalOr, all);
-}
-
-/// The step has been active for too long, or is left too early: the first error is kept. A
-/// greatest time of 0 is none.
-void ChartLowering::watch(const ChartStep &step, const std::string &number, Statements &out) {
-  Statements inside;
-  std::vector<Expr *> wrong;
-  if (Expr *time = step.maxTime) {
-    Expr *longest = limit("max" + number, time, inside);
-    Expr *late = make_.binary(BinaryOp::Greater, make_.member(step.name, "t", time->span), longest);
-    Expr *some = make_.binary(BinaryOp::Greater, longest, make_.noTime(time->span));
-    wrong.push_back(make_.combined(BinaryOp::LogicalAnd, {late, some}));
-  }
-  if (Expr *time = step.minTime) {
-    Expr *shortest = limit("min" + number, time, inside);
-    Expr *early = make_.binary(BinaryOp::Less, make_.member(step.name, "t", time->span), shortest);
-    if (Expr *leaves = left(step))
-      wrong.push_back(make_.combined(BinaryOp::LogicalAnd, {leaves, early}));
-  }
-  if (hasFlag("SFCError") && !wrong.empty()) {
-    std::vector<Expr *> all = {make_.negated(flag("SFCError")),
-                               make_.combined(BinaryOp::LogicalOr, wrong)};
-    if (hasFlag("SFCEnableLimit"))
-      all.push_back(flag("SFCEnableLimit"));
-    Statements note = {make_.assign(flag("SFCError"), make_.boolean(true, step.name.span))};
-    if (hasFlag("SFCErrorStep"))
-      note.push_back(make_.assign(flag("SFCErrorStep"), make_.text(step.name)));
-    if (hasFlag("SFCErrorPOU"))
-      note.push_back(make_.assign(flag("SFCErrorPOU"),
-                                  make_.text(make_.name(std::string(target_.pou), chart_.span))));
-    inside.push_back(make_.when(make_.combined(BinaryOp::LogicalAnd, all), note));
-  }
-  if (!inside.empty())
-    out.push_back(make_.when(make_.member(step.name, "x"), inside));
-}
-
-void ChartLowering::forgetError(Statements &out) {
-  if (!hasFlag("SFCError"))
-    return;
-  out.push_back(make_.assign(flag("SFCError"), make_.boolean(false, chart_.span)));
-  for (const char *one : {"SFCErrorStep", "SFCErrorPOU"})
-    if (hasFlag(one))
-      out.push_back(make_.assign(flag(one), make_.text(make_.name("", chart_.span))));
-}
-
-/// SFCQuitError forgets the error; when it becomes FALSE, the times of the active steps begin anew.
-void ChartLowering::quitError(Statements &out) {
-  if (!hasFlag("SFCQuitError") || !hasFlag("SFCError"))
-    return;
-  const Name last = make_.name(hidden("quit"), chart_.span);
-  declareBool(last, kept());
-  Statements forget;
-  forgetError(forget);
-  out.push_back(make_.when(flag("SFCQuitError"), forget));
-  Statements anew;
-  for (const ChartStep &step : chart_.steps)
-    anew.push_back(make_.when(
-        make_.member(step.name, "x"),
-        {make_.call(step.name, {make_.argument("leave", make_.boolean(false, step.name.span)),
-                                make_.argument("enter", make_.boolean(true, step.name.span))})}));
-  Expr *ended = make_.combined(BinaryOp::LogicalAnd,
-                               {make_.variable(last), make_.negated(flag("SFCQuitError"))});
-  out.push_back(make_.when(ended, anew));
-  out.push_back(make_.assign(make_.variable(last), flag("SFCQuitError")));
 }
 
 /// Leaves and enters steps after all transitions are known.
