@@ -12,8 +12,19 @@ namespace stc::exporting {
 
 namespace {
 
-/// The texts of all comments, line by line, without their signs. `pragma` is set when there is one.
-std::string commentsIn(std::string_view text, bool &pragma) {
+/// After the `}` of the pragma that begins at `at`; what stands between quotes does not end it.
+size_t pragmaEnd(std::string_view text, size_t at) {
+  for (size_t i = at + 1; i < text.size();) {
+    if (text[i] == '}')
+      return i + 1;
+    const size_t string = afterString(text, i);
+    i = string != i ? string : i + 1;
+  }
+  return text.size();
+}
+
+/// The texts of all comments, line by line, without their signs. `pragmas` gets those between them.
+std::string commentsIn(std::string_view text, std::string &pragmas) {
   std::string lines;
   for (size_t at = 0; at < text.size();) {
     if (const size_t end = commentEnd(text, at); end != at) {
@@ -33,8 +44,11 @@ std::string commentsIn(std::string_view text, bool &pragma) {
       at = end;
     } else if (const size_t string = afterString(text, at); string != at) {
       at = string;
+    } else if (text[at] == '{') {
+      const size_t close = pragmaEnd(text, at);
+      pragmas.append(text.substr(at, close - at)).append("\n");
+      at = close;
     } else {
-      pragma = pragma || text[at] == '{';
       ++at;
     }
   }
@@ -54,8 +68,9 @@ public:
       else
         good_ = false;
     }
-    out_.comment = comments(text_.size());
-    if (!good_ || pragma_ || out_.steps.empty())
+    std::string pragmas; // no part has them
+    out_.comment = comments(text_.size(), pragmas);
+    if (!good_ || !pragmas.empty() || out_.steps.empty())
       return std::nullopt;
     return std::move(out_);
   }
@@ -102,9 +117,9 @@ private:
     const size_t to = good_ ? words_[at_].begin : text_.size();
     return std::string(trimmed(text_.substr(from, to - from)));
   }
-  std::string comments(size_t end) {
+  std::string comments(size_t end, std::string &pragmas) {
     const size_t begin = std::exchange(done_, end);
-    return commentsIn(text_.substr(begin, end - begin), pragma_);
+    return commentsIn(text_.substr(begin, end - begin), pragmas);
   }
 
   void step() {
@@ -112,12 +127,47 @@ private:
     one.initial = is("INITIAL_STEP");
     ++at_;
     one.name = takeName();
+    if (is("("))
+      stepTimes(one);
     take(":");
     good_ = good_ && !is("=");
     while (good_ && !is("END_STEP"))
       one.actions.push_back(action());
-    finish(one.comment);
+    finish(one.comment, one.pragmas);
     out_.steps.push_back(std::move(one));
+  }
+
+  /// `(MIN_TIME := T#1s, MAX_TIME := x)`
+  void stepTimes(ChartStepText &one) {
+    ++at_;
+    const std::string all = textUpTo(")");
+    take(")");
+    for (const std::string_view part : partsOf(all)) {
+      const size_t sign = part.find(":=");
+      good_ = good_ && sign != std::string_view::npos;
+      if (!good_)
+        return;
+      const bool least = equalIgnoringCase(trimmed(part.substr(0, sign)), "MIN_TIME");
+      (least ? one.minTime : one.maxTime) = trimmed(part.substr(sign + 2));
+    }
+  }
+
+  /// What stands between commas outside of brackets.
+  static std::vector<std::string_view> partsOf(std::string_view all) {
+    std::vector<std::string_view> parts;
+    size_t depth = 0;
+    size_t begin = 0;
+    for (const StWord &each : wordsOf(all)) {
+      const char sign = all[each.begin];
+      depth += sign == '(' || sign == '[' ? 1 : 0;
+      depth -= sign == ')' || sign == ']' ? 1 : 0;
+      if (sign != ',' || depth != 0)
+        continue;
+      parts.push_back(trimmed(all.substr(begin, each.begin - begin)));
+      begin = each.end;
+    }
+    parts.push_back(trimmed(all.substr(begin)));
+    return parts;
   }
 
   ChartActionText action() {
@@ -146,18 +196,10 @@ private:
       one.indicator = all;
       return;
     }
-    size_t depth = 0;
-    for (const StWord &each : wordsOf(all)) {
-      const char sign = all[each.begin];
-      depth += sign == '(' || sign == '[' ? 1 : 0;
-      depth -= sign == ')' || sign == ']' ? 1 : 0;
-      if (sign != ',' || depth != 0)
-        continue;
-      one.time = trimmed(std::string_view(all).substr(0, each.begin));
-      one.indicator = trimmed(std::string_view(all).substr(each.end));
-      return;
-    }
-    one.time = all;
+    const std::string_view time = partsOf(all).front();
+    one.time = time;
+    if (const size_t end = time.data() + time.size() - all.data(); end < all.size())
+      one.indicator = trimmed(std::string_view(all).substr(all.find(',', end) + 1));
   }
 
   std::vector<std::string> steps() {
@@ -196,7 +238,7 @@ private:
     take(":");
     one.instructions = !is("=");
     at_ += one.instructions ? 0 : 1;
-    one.comment = comments(at_ <= words_.size() ? words_[at_ - 1].end : text_.size());
+    one.comment = comments(at_ <= words_.size() ? words_[at_ - 1].end : text_.size(), one.pragmas);
     one.condition = textUpTo(one.instructions ? "END_TRANSITION" : ";");
     done_ = at_ < words_.size() ? words_[at_].begin : text_.size(); // its comments stay in it
     if (one.instructions)
@@ -204,17 +246,17 @@ private:
     else
       take(";");
     good_ = good_ && is("END_TRANSITION");
-    finish(one.comment);
+    finish(one.comment, one.pragmas);
     out_.transitions.push_back(std::move(one));
   }
 
   /// Takes the END_… word.
-  void finish(std::string &comment) {
+  void finish(std::string &comment, std::string &pragmas) {
     if (!good_ || at_ >= words_.size()) {
       good_ = false;
       return;
     }
-    comment += comments(words_[at_].end);
+    comment += comments(words_[at_].end, pragmas);
     ++at_;
   }
 
@@ -223,7 +265,6 @@ private:
   size_t at_ = 0;
   size_t done_ = 0; ///< where the comments begin that no part has yet
   bool good_ = true;
-  bool pragma_ = false;
   ChartText out_;
 };
 

@@ -20,8 +20,11 @@ struct ChartActionText {
 struct ChartStepText {
   std::string name;
   bool initial = false;
+  std::string minTime; ///< expressions; empty: none
+  std::string maxTime;
   std::vector<ChartActionText> actions;
   std::string comment; ///< before it and in it, without signs; lines end with \n
+  std::string pragmas; ///< as they are written, likewise
 };
 
 struct ChartTransitionText {
@@ -32,6 +35,7 @@ struct ChartTransitionText {
   std::string condition;     ///< an expression, or lines of instructions
   bool instructions = false; ///< the condition is an instruction list
   std::string comment;       ///< as of steps
+  std::string pragmas;
 };
 
 struct ChartText {
@@ -41,7 +45,8 @@ struct ChartText {
 };
 
 /// The parts of a body that the compiler has accepted; nothing when it is no chart, or when it has
-/// what these parts cannot say (pragmas, a priority that is no plain number).
+/// what these parts cannot say (a pragma after the last of them, a priority that is no plain
+/// number).
 [[nodiscard]] std::optional<ChartText> chartText(std::string_view body);
 
 } // namespace stc::exporting

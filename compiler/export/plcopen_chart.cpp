@@ -19,6 +19,11 @@ namespace {
 constexpr int kColumn = 200;
 constexpr int kRow = 160;
 
+/// The numbers of CODESYS's properties of a step.
+constexpr std::string_view kStepName = "38391c6d-6d4a-42f8-8ee7-9f45e5adafa8";
+constexpr std::string_view kStepMinTime = "cacf1a68-236e-47c2-b7b1-1cf9199718cb";
+constexpr std::string_view kStepMaxTime = "b693554c-1b01-4a8d-afde-9e3a46f7465d";
+
 class ChartWriter {
 public:
   ChartWriter(Node pou, const ChartText &chart) : pou_(pou), chart_(chart) {}
@@ -140,6 +145,9 @@ private:
     lineOut(node);
     if (!one.actions.empty())
       node.append_child("connectionPointOutAction").append_attribute("formalParameter") = "action";
+    if (!one.minTime.empty() || !one.maxTime.empty())
+      times(node, one);
+    addPragmas(node, one.pragmas);
     Writer::addDocumentation(node, one.comment);
     if (!one.actions.empty())
       actions(i);
@@ -149,6 +157,27 @@ private:
     lineIn(divergence, stepIds_[i]);
     for (size_t n = 0; n < leaving_[i].size(); ++n)
       lineOut(divergence);
+  }
+
+  static void addPragmas(Node node, const std::string &pragmas) {
+    if (!pragmas.empty())
+      Writer::addXhtml(Writer::addData(node, kStride, "pragmas").append_child("Pragmas"), pragmas);
+  }
+
+  /// As CODESYS has the properties of a step: by number.
+  static void times(Node node, const ChartStepText &step) {
+    Node list = Writer::addData(node, kCodesys, "sfc/element").append_child("attributes");
+    list.append_attribute("xmlns") = "";
+    const auto add = [&](std::string_view guid, const std::string &value) {
+      if (value.empty())
+        return;
+      Node one = list.append_child("attribute");
+      one.append_attribute("guid") = std::string(guid).c_str();
+      one.text() = value.c_str();
+    };
+    add(kStepName, step.name);
+    add(kStepMinTime, step.minTime);
+    add(kStepMaxTime, step.maxTime);
   }
 
   void actions(size_t i) {
@@ -196,6 +225,7 @@ private:
       condition.append_child("reference").append_attribute("name") = one.name.c_str();
     else
       inlineCondition(condition, one);
+    addPragmas(node, one.pragmas);
     Writer::addDocumentation(node, one.comment);
     targets(k, column, row);
   }

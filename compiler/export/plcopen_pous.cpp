@@ -141,7 +141,8 @@ void Writer::method(Node parent, const PouDecl &decl, const DeclarationTexts &te
   Node node = parent.append_child("Method");
   node.append_attribute("name") = std::string(decl.name.text).c_str();
   interfaceOf(node, decl);
-  addBody(node, text);
+  if (!chart(node, trimmedLines(text.body) + trimmedLines(text.tail)))
+    addBody(node, text);
   addPlainDeclaration(node, plainOf(text));
 }
 

@@ -3,6 +3,7 @@
 #include "compiler/export/plcopen_parts.hpp"
 #include "compiler/source/content_hash.hpp"
 #include "compiler/source/identifier.hpp"
+#include "compiler/source/toml_sections.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -101,6 +102,7 @@ public:
     resource_.append_attribute("name") = "Application";
     readTexts();
     writer_.tasks(resource_);
+    addHardware();
     addStructure();
     for (const File *file : files_)
       add(*file);
@@ -154,6 +156,22 @@ private:
       texts_.merge(texts.texts);
       whole_[file] = texts.onlyAsAWhole;
     }
+  }
+
+  /// What stride.toml says of inputs, outputs, drives and axes: no element of the format has it.
+  void addHardware() {
+    std::string text;
+    for (FileId id = 1; id <= project_.sources().size(); ++id) {
+      const SourceFile &file = project_.sources().file(id);
+      if (file.name() != "stride.toml" || file.isSynthetic())
+        continue;
+      for (const TomlSectionText &each : tomlSections(file.text()))
+        if (std::ranges::find(kHardwareSections, each.name) != kHardwareSections.end())
+          text += each.text;
+      break;
+    }
+    if (!text.empty())
+      Writer::addXhtml(Writer::addData(root_, kStride, "hardware").append_child("Hardware"), text);
   }
 
   /// Folders are said only when there are some.

@@ -146,6 +146,13 @@ struct MovedAddress {
   std::string to;   ///< `%IX0.0`
 };
 
+/// A section of stride.toml that an export of Stride has kept.
+struct ManifestSection {
+  std::string name; ///< `bus`
+  std::string text; ///< as it is written
+  Origin origin;
+};
+
 /// A file that belongs to a project as well: it is read when it exists and has not been read.
 struct FileReference {
   std::string path; ///< with `/`, from the folder of the file that names it
@@ -171,6 +178,7 @@ struct Model {
   std::vector<IoChannel> channels;
   std::vector<HardwareChannel> hardware; ///< in the order of the configuration
   std::vector<MovedAddress> addresses;
+  std::vector<ManifestSection> sections;
   std::string addressing; ///< [image] addressing of stride.toml; empty: not said
   std::vector<FileReference> references;
   std::vector<FileReference> excluded; ///< files that a project has, but does not build

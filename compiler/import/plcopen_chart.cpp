@@ -16,6 +16,22 @@ namespace stc::import::plcopen {
 
 namespace {
 
+/// What a property of CODESYS's steps says. The file has only its number.
+enum class Property { Usual, Comment, MinTime, MaxTime, Entry, Main, Exit };
+constexpr std::pair<std::string_view, Property> kProperties[] = {
+    {"38391c6d-6d4a-42f8-8ee7-9f45e5adafa8", Property::Usual}, // the name
+    {"01580b27-6378-448b-8ecb-0e4b795b58d6", Property::Usual}, // excluded from the build
+    {"bc882c11-1e91-4dd8-a6b8-2075724ed18b", Property::Usual}, // a number
+    {"6844a48e-46c2-4cc8-a185-a478f3b99cc0", Property::Usual}, // initial step
+    {"62e1754b-7629-4e63-9cec-10ae0c536f1f", Property::Usual}, // copying makes new actions
+    {"7d894980-aeea-405c-a0f6-e2b26429c58f", Property::Comment},
+    {"cacf1a68-236e-47c2-b7b1-1cf9199718cb", Property::MinTime},
+    {"b693554c-1b01-4a8d-afde-9e3a46f7465d", Property::MaxTime},
+    {"a6b08bd8-b696-47e3-9cbf-7408b61c9ff8", Property::Entry},
+    {"700a583f-b4d4-43e4-8c14-629c7cd3bec8", Property::Main},
+    {"a2621e18-7de3-4ea6-ae6d-89e9e0b7befd", Property::Exit},
+};
+
 /// Elements of a chart that is read; following the lines of more takes too long.
 constexpr size_t kMostElements = 20'000;
 
@@ -187,26 +203,61 @@ private:
   std::string step(const Node &node) {
     const std::string id = attribute(node, "localId");
     const std::string name = attribute(node, "name");
-    std::string text = documentationLines(node);
-    reportProperties(node, name);
-    text += fmt::format("{} {}:\n", isTrue(node, "initialStep") ? "INITIAL_STEP" : "STEP", name);
+    std::string text = documentationLines(node) + linesOf(extra(node, "Pragmas"));
+    std::map<Property, std::string> found = propertiesOf(node, name);
+    text += commentLines(found[Property::Comment], {}, "//");
+    std::string times;
+    for (const auto &[property, word] :
+         {std::pair{Property::MinTime, "MIN_TIME"}, std::pair{Property::MaxTime, "MAX_TIME"}})
+      if (!found[property].empty())
+        times += fmt::format("{}{} := {}", times.empty() ? " (" : ", ", word, found[property]);
+    text += fmt::format("{} {}{}{}:\n", isTrue(node, "initialStep") ? "INITIAL_STEP" : "STEP", name,
+                        times, times.empty() ? "" : ")");
+    text += stepAction(node, name, found[Property::Entry], "entry", "P1");
+    text += stepAction(node, name, found[Property::Main], "main", "N");
     for (const Node &each : blocks_[id])
       for (const Node &action : children(each, "action"))
         text += "  " + actionText(action, name) + "\n";
-    return text;
+    return text + stepAction(node, name, found[Property::Exit], "exit", "P0");
   }
 
-  /// Entry and exit actions and times of CODESYS's steps, of which the file says only numbers.
-  void reportProperties(const Node &node, const std::string &name) {
+  /// Actions and times of CODESYS's steps, and their comment.
+  std::map<Property, std::string> propertiesOf(const Node &node, const std::string &name) {
+    std::map<Property, std::string> found;
     for (const Node &each : children(extra(node, "attributes"), "attribute")) {
-      const std::string value = textOf(each);
-      constexpr std::string_view kName = "38391c6d-6d4a-42f8-8ee7-9f45e5adafa8";
+      const std::string value(trimmed(textOf(each)));
       const bool usual = value.empty() || value == "FALSE" || value == "TRUE" || value == "0";
-      if (!usual && attribute(each, "guid") != kName)
+      const auto *const row = std::ranges::find(kProperties, attribute(each, "guid"),
+                                                &std::pair<std::string_view, Property>::first);
+      const bool known = row != std::end(kProperties);
+      const bool action = known && row->second >= Property::Entry;
+      if (usual || (known && row->second == Property::Usual))
+        continue;
+      if (!known || (action && !isName(value)) || (!action && hasStatements(value)))
         context_.leftOut(each, fmt::format("{}: step {}", object_, name),
-                         fmt::format("its property {} = `{}`: an action or a time of the step",
+                         fmt::format("its property {} = `{}`, which is not known",
                                      attribute(each, "guid"), value));
+      else
+        found[row->second] = value;
     }
+    return found;
+  }
+
+  /// An action that CODESYS binds to the step itself: without a final scan, and each step for
+  /// itself, so it is called by an action of the step's own.
+  std::string stepAction(const Node &node, const std::string &step, const std::string &called,
+                         const std::string &kind, const char *qualifier) {
+    if (called.empty())
+      return {};
+    const std::string name = drawn_.freshName(fmt::format("{}_{}", step, kind));
+    const bool main = kind == "main";
+    members_ += fmt::format("\nACTION {}:\n{}{}();{}\nEND_ACTION\n", name,
+                            main ? fmt::format("IF {}.x THEN\n  ", step) : "", called,
+                            main ? "\nEND_IF" : "");
+    context_.changed(node, fmt::format("{}: step {}", object_, step),
+                     fmt::format("its {} action `{}` is called by the action `{}`",
+                                 main ? "step" : kind, called, name));
+    return fmt::format("  {}({});\n", name, qualifier);
   }
 
   std::string actionText(const Node &action, const std::string &stepName) {
@@ -271,8 +322,9 @@ private:
     const std::string priority = attribute(transition.node, "priority");
     std::string name;
     const std::string condition = conditionOf(transition.node, name);
-    return fmt::format("{}TRANSITION{}{} FROM {} TO {}{}\nEND_TRANSITION\n",
-                       documentationLines(transition.node), name.empty() ? "" : " " + name,
+    return fmt::format("{}{}TRANSITION{}{} FROM {} TO {}{}\nEND_TRANSITION\n",
+                       documentationLines(transition.node),
+                       linesOf(extra(transition.node, "Pragmas")), name.empty() ? "" : " " + name,
                        priority.empty() ? "" : fmt::format(" (PRIORITY := {})", priority),
                        list(transition.sources), list(targets), condition);
   }

@@ -92,11 +92,12 @@ std::string method(Context &context, const Node &node, const std::string &owner)
   if (name.empty())
     return {};
   const std::string object = owner + "." + name;
-  context.leaveOutUnknown(node, {"interface", "body", "documentation", "InterfaceAsPlainText"});
+  context.leaveOutUnknown(
+      node, {"interface", "body", "transitions", "documentation", "InterfaceAsPlainText"});
   context.leaveOutUnknownExtras(node, {"InterfaceAsPlainText"});
   std::string members;
   std::string text = declarationOf(context, node, "METHOD", name, owner + "_" + name);
-  text += bodiesOf(context, node, {}, object, members) + "END_METHOD\n";
+  text += bodiesOf(context, node, node, object, members) + "END_METHOD\n";
   leaveOutMembers(context, node, object, members);
   return text;
 }
@@ -142,10 +143,12 @@ std::string actionsOf(Context &context, const Node &node, const std::string &own
     const std::string name = context.nameOf(each, owner + ": action");
     if (name.empty())
       continue;
-    context.leaveOutUnknown(each, {"body", "documentation"});
+    context.leaveOutUnknown(each, {"body", "transitions", "documentation"});
     context.leaveOutUnknownExtras(each, {});
     std::string members;
-    const std::string body = bodiesOf(context, each, node, owner + "." + name, members);
+    const bool own = !child(each, "transitions").empty(); // otherwise those of the POU
+    const std::string body =
+        bodiesOf(context, each, own ? each : node, owner + "." + name, members);
     text += fmt::format("\n{}ACTION {}:\n{}END_ACTION\n{}", documentationLines(each), name, body,
                         members);
   }

@@ -3,6 +3,10 @@
 #include "compiler/import/exp_lines.hpp"
 #include "compiler/import/libraries.hpp"
 #include "compiler/import/plcopen_context.hpp"
+#include "compiler/source/toml_sections.hpp"
+
+#include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -71,16 +75,38 @@ void readSource(Context &context, const Node &element) {
   context.add(ObjectKind::Source, element, isName(name) ? name : "Source", linesOf(element));
 }
 
+/// Sections of stride.toml that `stride export plcopen` keeps: of those that it does, nothing else.
+void readHardware(Context &context, const Node &element) {
+  constexpr std::array<std::string_view, 6> kKept = {"image",      "io",  "axis",
+                                                     "axes_group", "csy", "bus"};
+  const std::string text = linesOf(element);
+  for (const TomlSectionText &each : tomlSections(text)) {
+    const std::string name(each.name);
+    if (std::ranges::find(kKept, each.name) == kKept.end()) {
+      context.leftOut(element, fmt::format("section {}", name),
+                      "only sections about inputs, outputs and drives are taken");
+      continue;
+    }
+    std::vector<ManifestSection> &all = context.model().sections;
+    if (!all.empty() && all.back().name == name)
+      all.back().text += each.text;
+    else
+      all.push_back({name, std::string(each.text), context.originOf(element)});
+  }
+}
+
 } // namespace
 
 void readExtras(Context &context, const Node &node, const std::string &listName) {
   for (const Extra &each : extrasOf(node))
     if (localName(each.element) == "Source")
       readSource(context, each.element);
+    else if (localName(each.element) == "Hardware")
+      readHardware(context, each.element);
     else
       readExtra(context, each.element, listName);
   context.leaveOutUnknownExtras(node, {"pou", "dataType", "union", "globalVars", "Interface",
-                                       "Libraries", "resource", "Source"});
+                                       "Libraries", "resource", "Source", "Hardware"});
 }
 
 } // namespace plcopen

@@ -124,7 +124,9 @@ std::string tomlOf(const Model &model, const ProjectSettings &settings) {
                                  tomlText(settings.name));
   if (settings.library)
     text += "version = \"1.0.0\"\n";
-  if (!model.addressing.empty())
+  const bool hasImage = std::ranges::any_of(
+      model.sections, [](const ManifestSection &each) { return each.name == "image"; });
+  if (!model.addressing.empty() && !hasImage)
     text += fmt::format("\n[image]\naddressing = {}\n", tomlText(model.addressing));
   for (const std::string &name : model.named)
     text += fmt::format("\n[[{}]]\nname = {}\n", settings.library ? "library.uses" : "library",
@@ -135,6 +137,9 @@ std::string tomlOf(const Model &model, const ProjectSettings &settings) {
     text += tomlOf(task);
   for (const BusSetup &bus : model.buses)
     text += tomlOf(bus);
+  for (const ManifestSection &section : model.sections)
+    text +=
+        fmt::format("\n{}\n", section.text.substr(0, section.text.find_last_not_of(" \t\r\n") + 1));
   return text;
 }
 

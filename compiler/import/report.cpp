@@ -134,6 +134,8 @@ std::string convertedSection(const Model &model, const ProjectSettings &settings
       for (const DriveGroupSetup &group : bus.groups)
         for (const DriveSetup &drive : group.drives)
           add(drive.origin, "drive", drive.name);
+    for (const ManifestSection &section : model.sections)
+      add(section.origin, "section", section.name);
   }
   for (const IoChannel &each : model.channels) {
     text += fmt::format("- {}: channel {} at {}\n", placeOf(each.origin), lineOf(each.name),

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -230,8 +232,10 @@ void SclText::members(std::string &out, const std::string &owner, std::string_vi
     }
     const size_t nameAt = out.size();
     out += name;
+    bool viewed = false;
     for (; !atEnd() && !scl::ends(now(), ':') && !scl::ends(now(), ';') && !isNow(end); ++at_) {
-      if (isNow("AT") && rules.ofBlock && view(out, name, nameAt, owner))
+      viewed = isNow("AT") && rules.ofBlock && view(out, name, nameAt, owner);
+      if (viewed)
         break;
       if (isNow("AT"))
         leaveOut(now().line, fmt::format("`{}` is a view of another variable (AT): the CPU stores "
@@ -239,6 +243,8 @@ void SclText::members(std::string &out, const std::string &owner, std::string_vi
                                          name));
       out += plain(now());
     }
+    if (viewed) // with its `;`: what follows is another member
+      continue;
     if (!atEnd() && scl::ends(now(), ':')) {
       out += plain(tokens_[at_++]);
       const size_t written = out.size();
@@ -257,6 +263,7 @@ bool SclText::view(std::string &out, const std::string &name, size_t nameAt,
                    const std::string &owner) {
   const size_t at = at_;
   const size_t line = now().line;
+  const size_t said = model_.changed.size();
   const std::string hoisted = hoisted_;
   skip(); // AT
   const std::string of = takeName();
@@ -266,19 +273,61 @@ bool SclText::view(std::string &out, const std::string &name, size_t nameAt,
   if (!atEnd() && scl::ends(now(), ':')) {
     skip();
     type(as, fmt::format("{}_{}", owner, name));
+    std::string blanks; // END_STRUCT ;
+    pass(blanks);
   }
+  const std::string structure = hoisted_.substr(hoisted.size());
+  hoisted_ = hoisted;
   const auto seen = types_.find(stride::common::lowerCase(of));
-  if (atEnd() || !scl::ends(now(), ';') || seen == types_.end() ||
-      !isSclViewKept(as, seen->second)) {
+  const bool plainView = !atEnd() && scl::ends(now(), ';') && seen != types_.end();
+  const bool kept = plainView && isSclViewKept(as, seen->second);
+  if (!kept && !(plainView && partView(name, of, as, structure, seen->second))) {
     at_ = at;
-    hoisted_ = hoisted;
     return false;
   }
+  model_.changed.resize(said); // what was said of a structure that is none here
   skip();
   out.resize(nameAt);
-  views_.insert_or_assign(stride::common::lowerCase(name),
-                          View{name, of, std::string(trimmed(as))});
-  changed(line, fmt::format("the view `{}` of `{}` (AT) became a pointer to it", name, of));
+  if (kept)
+    views_.insert_or_assign(stride::common::lowerCase(name),
+                            View{name, of, std::string(trimmed(as))});
+  changed(line, fmt::format("the view `{}` of `{}` (AT) became a pointer to it{}", name, of,
+                            kept ? "" : ", its parts bits and bytes of it, the high byte first"));
+  return true;
+}
+
+/// Whether the token names a variable of the block: neither a member, nor an input in a call.
+bool SclText::namesOwn(size_t at) const {
+  if (tokens_[at].kind == SclKind::Local)
+    return true;
+  size_t before = at;
+  while (before > 0 && scl::isOver(tokens_[before - 1]))
+    --before;
+  const std::string_view sign = before > 0 ? tokens_[before - 1].text : std::string_view();
+  const SclToken *next = significant(at + 1);
+  const bool input =
+      (sign == "(" || sign == ",") && next != nullptr && (next->text == ":=" || next->text == "=>");
+  return tokens_[at].kind == SclKind::Word && sign != "." && !input;
+}
+
+/// A view of smaller parts: each is a bit or a byte of the variable, as long as the block names
+/// them one by one.
+bool SclText::partView(const std::string &name, const std::string &of, std::string_view as,
+                       std::string_view structure, std::string_view seen) {
+  std::optional<SclViewParts> parts = sclViewParts(as, structure, seen);
+  if (!parts)
+    return false;
+  const std::string key = stride::common::lowerCase(name);
+  const std::span<const SclToken> tokens = std::span(tokens_).first(limit_);
+  for (size_t i = at_; i < tokens.size(); ++i) {
+    if (stride::common::lowerCase(asIdentifier(sclName(tokens[i]))) != key || !namesOwn(i))
+      continue;
+    size_t end = 0;
+    if (sclViewPartAt(*parts, tokens, i, end) == nullptr)
+      return false;
+  }
+  std::string type(parts->type);
+  views_.insert_or_assign(key, View{name, of, std::move(type), std::move(*parts)});
   return true;
 }
 
@@ -364,6 +413,18 @@ void SclText::compound(std::string &out) {
   skip();
 }
 
+/// `view[3]` is a bit of what it refers to, a view of the same size all of it.
+void SclText::viewed(std::string &out) {
+  const View &view = views_.at(stride::common::lowerCase(asIdentifier(sclName(now()))));
+  out += plain(now()) + "^";
+  size_t end = at_ + 1;
+  if (!view.parts.parts.empty())
+    if (const std::string *part =
+            sclViewPartAt(view.parts, std::span(tokens_).first(limit_), at_, end))
+      out += "." + *part;
+  at_ = end;
+}
+
 void SclText::statementToken(std::string &out) {
   static constexpr std::array<std::string_view, 6> kBeginsAfter = {"THEN",   "ELSE", "DO",
                                                                    "REPEAT", "OF",   "BEGIN"};
@@ -379,12 +440,12 @@ void SclText::statementToken(std::string &out) {
     out += ')';
     closing_ = false;
   }
-  const bool view = isView(token, out);
-  if (isSclWord(token, "GOTO"))
-    out += "JMP";
-  else
-    out += plain(token) + (view ? "^" : "");
-  skip();
+  if (isView(token, out)) {
+    viewed(out);
+  } else {
+    out += isSclWord(token, "GOTO") ? "JMP" : plain(token);
+    skip();
+  }
   const bool first = scl::nothingSince(out, statement_);
   const bool begins = std::ranges::any_of(
       kBeginsAfter, [&](std::string_view each) { return isSclWord(token, each); });

@@ -4,6 +4,7 @@
 
 #include "compiler/import/model.hpp"
 #include "compiler/import/scl_tokens.hpp"
+#include "compiler/import/scl_views.hpp"
 
 #include <map>
 #include <set>
@@ -65,7 +66,11 @@ private:
   [[nodiscard]] const SclToken *significant(size_t from) const;
   [[nodiscard]] std::string date(const SclToken &token);
   bool view(std::string &out, const std::string &name, size_t nameAt, const std::string &owner);
+  [[nodiscard]] bool namesOwn(size_t at) const;
+  bool partView(const std::string &name, const std::string &of, std::string_view as,
+                std::string_view structure, std::string_view seen);
   [[nodiscard]] bool isView(const SclToken &token, std::string_view before) const;
+  void viewed(std::string &out);
   void structure(std::string &out, const std::string &name);
   void memberValue(std::string &out, const std::string &name, std::string_view end,
                    const MemberRules &rules);
@@ -87,8 +92,9 @@ private:
   bool inStatements_ = false;
   struct View {
     std::string name;
-    std::string of;   ///< the variable that is seen as another type
-    std::string type; ///< as which type
+    std::string of;       ///< the variable that is seen as another type
+    std::string type;     ///< as which type
+    SclViewParts parts{}; ///< of it; none: the view has its size
   };
   std::map<std::string, View> views_;        ///< by their names in lower case
   std::map<std::string, std::string> types_; ///< of the block's variables, by names in lower case

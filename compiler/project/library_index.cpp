@@ -16,9 +16,9 @@ static bool isQualifiedOnly(const EmbeddedFile &file) {
 
 /// Whether the library is there so that programs of CODESYS V3 or TwinCAT 3 find what they use.
 static bool isForeign(const EmbeddedFile &file) {
-  static constexpr std::string_view kForeign[] = {"CAA_Memory",  "CAA_Types", "Standard64",
-                                                  "StringUtils", "SysTime",   "SysTypes",
-                                                  "Tc2_MC2",     "Tc2_Math",  "Tc2_System"};
+  static constexpr std::string_view kForeign[] = {
+      "CAA_Memory", "CAA_Types", "Standard64", "StringUtils", "SysTime",
+      "SysTypes",   "Tc2_MC2",   "Tc2_Math",   "Tc2_System",  "Tc2_Utilities"};
   return std::find(std::begin(kForeign), std::end(kForeign), file.library) != std::end(kForeign);
 }
 

@@ -34,6 +34,8 @@ struct ChartAction {
 struct ChartStep {
   ast::Name name;
   bool initial = false;
+  ast::Expr *minTime = nullptr; ///< how long it must be active; null: not watched
+  ast::Expr *maxTime = nullptr; ///< how long it may be active; null: not watched
   std::vector<ChartAction> actions;
 };
 
@@ -53,7 +55,7 @@ struct Chart {
 };
 
 /// Says what is wrong with the steps and transitions of a POU with these variables; false: an
-/// error. Warns also of flags that do nothing here.
+/// error. Warns also of flags and times that do nothing here.
 bool checkChart(const Chart &chart, const std::vector<ast::VarDecl *> &variables,
                 Diagnostics &diagnostics);
 

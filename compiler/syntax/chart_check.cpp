@@ -18,9 +18,9 @@ constexpr ChartQualifier kQualifiers[] = {
     {"s0", "S", false},
 };
 
-/// Flags of CODESYS that watch the times of steps, which the textual form does not have.
-constexpr std::string_view kTimeFlags[] = {"SFCError", "SFCEnableLimit", "SFCErrorStep",
-                                           "SFCErrorPOU", "SFCQuitError"};
+/// Flags of CODESYS that belong to SFCError, which watches the times of steps.
+constexpr std::string_view kErrorFlags[] = {"SFCEnableLimit", "SFCErrorStep", "SFCErrorPOU",
+                                            "SFCQuitError"};
 
 /// Which steps are active: their numbers, in ascending order.
 using Marking = std::vector<size_t>;
@@ -148,18 +148,43 @@ const ChartQualifier *findQualifier(std::string_view spelling) {
   return found == std::end(kQualifiers) ? nullptr : found;
 }
 
-static void checkFlags(const std::vector<ast::VarDecl *> &variables, Diagnostics &diagnostics) {
+/// The flags of watched times, the times, and SFCError need each other.
+static void checkFlags(const Chart &chart, const std::vector<ast::VarDecl *> &variables,
+                       Diagnostics &diagnostics) {
+  const auto timed = std::ranges::find_if(chart.steps, [](const ChartStep &step) {
+    return step.minTime != nullptr || step.maxTime != nullptr;
+  });
+  const bool watched = std::ranges::any_of(variables, [](const ast::VarDecl *one) {
+    return equalIgnoringCase("SFCError", one->name.text);
+  });
   for (const ast::VarDecl *one : variables) {
-    if (std::none_of(std::begin(kTimeFlags), std::end(kTimeFlags), [&](std::string_view name) {
-          return equalIgnoringCase(name, one->name.text);
-        }))
+    const bool error = equalIgnoringCase("SFCError", one->name.text);
+    const bool own = std::ranges::any_of(kErrorFlags, [&](std::string_view name) {
+      return equalIgnoringCase(name, one->name.text);
+    });
+    // SFCQuitError stops the chart, whether it has times or not.
+    const bool used = watched && (timed != chart.steps.end() ||
+                                  equalIgnoringCase("SFCQuitError", one->name.text));
+    if ((!error && !own) || used)
       continue;
-    diagnostics
-        .report(Code::SfcFlag, one->name.span,
-                "the chart does not use `" + std::string(one->name.text) + "`",
-                "steps of a textual chart have no times that could be watched")
-        .help("watch the time in a transition: `Step.t > T#5s`");
+    auto &&report =
+        diagnostics.report(Code::SfcFlag, one->name.span,
+                           "the chart does not use `" + std::string(one->name.text) + "`",
+                           watched ? "no step has a time that could be watched"
+                                   : "it belongs to `SFCError`, which is not declared");
+    if (watched)
+      report.help("give a step a time: `STEP " + std::string(chart.steps.front().name.text) +
+                  " (MAX_TIME := T#5s):`");
+    else
+      report.help("declare `SFCError : BOOL`");
   }
+  if (watched || timed == chart.steps.end())
+    return;
+  const ast::Expr *time = timed->maxTime != nullptr ? timed->maxTime : timed->minTime;
+  diagnostics
+      .report(Code::SfcFlag, time->span, "the times of the steps are not watched",
+              "nothing tells that the step took another time")
+      .help("declare `SFCError : BOOL` in the POU or METHOD of the chart");
 }
 
 /// Each step is a variable of the POU.
@@ -232,7 +257,7 @@ static bool checkInitialStep(const Chart &chart, Diagnostics &diagnostics) {
 
 bool checkChart(const Chart &chart, const std::vector<ast::VarDecl *> &variables,
                 Diagnostics &diagnostics) {
-  checkFlags(variables, diagnostics);
+  checkFlags(chart, variables, diagnostics);
   bool good = checkNames(chart, variables, diagnostics);
   good = checkActionNames(chart, diagnostics) && good;
   good = checkInitialStep(chart, diagnostics) && good;

@@ -1,7 +1,6 @@
 // A chart as Structured Text. Each call: the steps' times, the transitions, the steps that they
 // leave and enter (all at once), the action controls, the final scans, the actions.
-#include "compiler/syntax/chart.hpp"
-#include "compiler/syntax/chart_nodes.hpp"
+#include "compiler/syntax/chart_flags.hpp"
 
 #include <algorithm>
 #include <map>
@@ -15,16 +14,13 @@ using namespace ast;
 
 namespace {
 
-class ChartLowering {
+class ChartLowering : private ChartFlags {
 public:
-  ChartLowering(const Chart &chart, const ChartTarget &target)
-      : chart_(chart), target_(target), make_(target.interner, target.arena),
-        declared_(target.variables.begin(), target.variables.end()) {}
+  ChartLowering(const Chart &chart, const ChartTarget &target) : ChartFlags(chart, target) {}
 
   void lower(std::vector<Stmt *> &out);
 
 private:
-  using Statements = ChartNodes::Statements;
   /// An action, with all places that name it.
   struct Use {
     Name name;
@@ -32,14 +28,6 @@ private:
     std::vector<std::pair<const ChartStep *, const ChartAction *>> places;
   };
 
-  /// Of a variable that the program does not see: unlike those of the blocks that this one extends.
-  std::string hidden(const std::string &what) const {
-    return "sfc__" + std::string(target_.pou) + "__" + what;
-  }
-  /// Where what lives from call to call is declared: a member keeps it in its block.
-  [[nodiscard]] Section kept() const {
-    return target_.ofMember ? Section::Instance : Section::Local;
-  }
   /// A variable of a step or an action, which the program may read.
   VarDecl *declareOpen(const Name &what, const char *type) {
     VarDecl *node = make_.declaration(what, {"__SYSTEM", type}, kept());
@@ -47,26 +35,11 @@ private:
     target_.variables.push_back(node);
     return node;
   }
-  void declareBool(const Name &what, Section section) {
-    target_.variables.push_back(make_.declaration(what, {"BOOL"}, section));
-    make_.hide(target_.variables.back());
-  }
-  /// The variable when the POU declares it.
-  [[nodiscard]] const VarDecl *declared(std::string_view what) const;
-  [[nodiscard]] bool hasFlag(const char *what) const { return declared(what) != nullptr; }
-  Expr *flag(const char *what) {
-    return make_.variable(make_.name(what, declared(what)->name.span));
-  }
-  /// Whether one of the flags is TRUE; null: none of them is declared.
-  Expr *anyFlag(std::initializer_list<const char *> flags);
   Expr *anyStep();
 
   /// Whether nothing of the POU or the chart has this name.
   [[nodiscard]] bool isFree(const std::string &what);
   void collect();
-  Name fires(size_t i) {
-    return make_.name(hidden("fire" + std::to_string(i)), chart_.transitions[i].span);
-  }
   std::vector<size_t> order() const;
   void tip(Statements &out);
   Statements condition(size_t i);
@@ -80,29 +53,10 @@ private:
   Stmt *control(const Use &use);
   void currentStep(Statements &out);
 
-  const Chart &chart_;
-  const ChartTarget &target_;
-  ChartNodes make_;
-  std::vector<const VarDecl *> declared_; ///< by the POU itself
-  std::vector<Use> uses_;                 ///< in the order of the text
-  std::map<Ident, size_t> useOf_;         ///< of an action
-  std::set<std::string> taken_;           ///< names of the POU and the chart, in lower case
+  std::vector<Use> uses_;         ///< in the order of the text
+  std::map<Ident, size_t> useOf_; ///< of an action
+  std::set<std::string> taken_;   ///< names of the POU and the chart, in lower case
 };
-
-const VarDecl *ChartLowering::declared(std::string_view what) const {
-  const auto found = std::find_if(declared_.begin(), declared_.end(), [&](const VarDecl *one) {
-    return equalIgnoringCase(one->name.text, what);
-  });
-  return found == declared_.end() ? nullptr : *found;
-}
-
-Expr *ChartLowering::anyFlag(std::initializer_list<const char *> flags) {
-  std::vector<Expr *> list;
-  for (const char *one : flags)
-    if (hasFlag(one))
-      list.push_back(flag(one));
-  return make_.combined(BinaryOp::LogicalOr, list);
-}
 
 Expr *ChartLowering::anyStep() {
   std::vector<Expr *> list;
@@ -266,6 +220,8 @@ void ChartLowering::resetFlags(Statements &out) {
   reset("SFCPause");
   reset("SFCTip");
   reset("SFCTipMode");
+  reset("SFCQuitError");
+  forgetError(out);
 }
 
 /// Only the initial step is active; the actions forget what they have stored.
@@ -364,6 +320,7 @@ void ChartLowering::lower(Statements &out) {
   if (hasFlag("SFCTrans"))
     out.push_back(make_.assign(flag("SFCTrans"), make_.boolean(false, chart_.span)));
   tip(out);
+  quitError(out);
   Statements evolve;
   for (const ChartStep &step : chart_.steps)
     evolve.push_back(make_.when(
@@ -371,6 +328,8 @@ void ChartLowering::lower(Statements &out) {
         {make_.call(step.name, {make_.argument("leave", make_.boolean(false, step.name.span)),
                                 make_.argument("enter", make_.boolean(false, step.name.span))})}));
   transitions(evolve);
+  for (size_t i = 0; i < chart_.steps.size(); ++i)
+    watch(chart_.steps[i], std::to_string(i), evolve);
   steps(evolve);
   Statements begin;
   start(begin);
@@ -379,13 +338,13 @@ void ChartLowering::lower(Statements &out) {
   std::vector<Expr *> anew = {make_.negated(anyStep())};
   if (Expr *flags = anyFlag({"SFCInit", "SFCReset"}))
     anew.push_back(flags);
-  if (Expr *paused = anyFlag({"SFCPause"}))
+  if (Expr *paused = anyStop(false))
     evolve = {make_.when(make_.negated(paused), evolve)};
   Stmt *evolution = make_.when(make_.combined(BinaryOp::LogicalOr, anew), begin, evolve);
   out.push_back(evolution);
   Statements act;
   actions(act);
-  Expr *still = anyFlag({"SFCInit", "SFCPause"});
+  Expr *still = anyStop(true);
   if (still != nullptr && !act.empty())
     act = {make_.when(make_.negated(still), act)};
   out.insert(out.end(), act.begin(), act.end());

@@ -45,6 +45,24 @@ Expr *ChartNodes::text(const Name &of) {
   return node;
 }
 
+Expr *ChartNodes::noTime(Span span) {
+  auto *node = arena_.make<Literal>();
+  node->literal = LiteralKind::Time;
+  node->text = "T#0ms";
+  node->span = span;
+  return node;
+}
+
+Expr *ChartNodes::binary(BinaryOp op, Expr *left, Expr *right) {
+  auto *node = arena_.make<BinaryExpr>();
+  node->op = op;
+  node->left = left;
+  node->right = right;
+  node->span = left->span;
+  node->opSpan = left->span;
+  return node;
+}
+
 Expr *ChartNodes::negated(Expr *operand) {
   auto *node = arena_.make<UnaryExpr>();
   node->op = UnaryOp::LogicalNot;
@@ -56,13 +74,8 @@ Expr *ChartNodes::negated(Expr *operand) {
 Expr *ChartNodes::combined(BinaryOp op, Expr *const *operands, size_t count) {
   if (count == 1)
     return *operands;
-  auto *node = arena_.make<BinaryExpr>();
-  node->op = op;
-  node->left = combined(op, operands, count / 2);
-  node->right = combined(op, operands + count / 2, count - count / 2);
-  node->span = node->left->span;
-  node->opSpan = node->left->span;
-  return node;
+  return binary(op, combined(op, operands, count / 2),
+                combined(op, operands + count / 2, count - count / 2));
 }
 
 Expr *ChartNodes::combined(BinaryOp op, const std::vector<Expr *> &operands) {

@@ -24,7 +24,10 @@ public:
   ast::Expr *member(const ast::Name &of, const char *field) { return member(of, field, of.span); }
   ast::Expr *boolean(bool value, Span span);
   ast::Expr *text(const ast::Name &of);
+  /// T#0ms
+  ast::Expr *noTime(Span span);
   ast::Expr *negated(ast::Expr *operand);
+  ast::Expr *binary(ast::BinaryOp op, ast::Expr *left, ast::Expr *right);
   /// All of them, or some of them; null for an empty list. Balanced, so that no list of operands is
   /// nested too deeply.
   ast::Expr *combined(ast::BinaryOp op, const std::vector<ast::Expr *> &operands);

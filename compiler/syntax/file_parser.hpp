@@ -139,6 +139,7 @@ private:
   bool chartTimes(ChartAction &action, const Token &target);
   bool chartQualifier(ChartAction &action, const Token &target);
   bool chartAction(ChartStep &step);
+  bool chartStepTimes(ChartStep &step);
   void chartStep(Chart &chart);
   bool chartPriority(ChartTransition &out);
   bool chartTransition(ChartTransition &out);

@@ -183,6 +183,30 @@ bool FileParser::chartAction(ChartStep &step) {
   return true;
 }
 
+/// `(MIN_TIME := T#1s, MAX_TIME := longest)` after the name of a step.
+bool FileParser::chartStepTimes(ChartStep &step) {
+  do {
+    advance();
+    ast::Expr **time = isNow("min_time")   ? &step.minTime
+                       : isNow("max_time") ? &step.maxTime
+                                           : nullptr;
+    if (time == nullptr || *time != nullptr) {
+      chartError("MIN_TIME or MAX_TIME, each at most once,");
+      return false;
+    }
+    const Token word = now_;
+    advance();
+    const Token sign = now_;
+    if (!chartToken(Tok::ASSIGN))
+      return false;
+    *time = chartExpression(
+        word, sign, [](uint16_t type) { return type == Tok::COMMA || type == Tok::RPAREN; });
+    if (*time == nullptr)
+      return false;
+  } while (now_.type == Tok::COMMA);
+  return chartToken(Tok::RPAREN);
+}
+
 void FileParser::chartStep(Chart &chart) {
   ChartStep step;
   step.initial = now_.type == Tok::INITIAL_STEP || isNow("initial_step");
@@ -193,7 +217,8 @@ void FileParser::chartStep(Chart &chart) {
   }
   step.name = builder_.name(now_);
   advance();
-  bool good = chartToken(Tok::COLON);
+  bool good = now_.type != Tok::LPAREN || chartStepTimes(step);
+  good = good && chartToken(Tok::COLON);
   while (good && now_.type != Tok::END_STEP)
     good = chartAction(step);
   skipChartPart(Tok::END_STEP);
@@ -288,8 +313,8 @@ bool FileParser::startsRanked() const {
   return isWord(text.substr(std::min(word, text.size()), 4), "from");
 }
 
-/// `STEP Name:` or `TRANSITION FROM` after `ACTION name:`, where the scanner takes the word for a
-/// name: what follows a colon may be a type.
+/// `STEP Name:`, `STEP Name (` or `TRANSITION FROM` after `ACTION name:`, where the scanner takes
+/// the word for a name: what follows a colon may be a type.
 bool FileParser::startsAfterHead() const {
   if (ahead_.type != Tok::IDENT)
     return false;
@@ -297,8 +322,8 @@ bool FileParser::startsAfterHead() const {
     return isWord(scanner_.text(ahead_), "from");
   const std::string_view text = scanner_.text();
   const std::string_view sign = text.substr(std::min(afterBlanks(ahead_.end, false), text.size()));
-  return (isNow("initial_step") || isNow("step")) && sign.starts_with(':') &&
-         !sign.starts_with(":=");
+  const bool heads = (sign.starts_with(':') && !sign.starts_with(":=")) || sign.starts_with('(');
+  return (isNow("initial_step") || isNow("step")) && heads;
 }
 
 /// `begun`: the chart has a part already. The words of a chart are keywords only before a name.

@@ -6,7 +6,7 @@ usage: random_charts.py STRIDE [--seeds FIRST..LAST] [--keep FOLDER]
 A seed is a project of ten charts, which `stride sim` runs for 200 cycles. Some are made of sequences, alternatives, parallel
 branches and loops; others are wild: transitions between any steps. Conditions are random bits, times and states of steps;
 actions have all qualifiers and are variables or statements; some charts are not called in each cycle, and some have the
-flags SFCInit, SFCReset, SFCPause, SFCTipMode and SFCTip. Each chart folds the states and times of its steps, its actions and
+flags SFCInit, SFCReset, SFCPause, SFCTipMode and SFCTip, or watch the times of steps. Each chart folds the states and times of its steps, its actions and
 the order in which their statements run into one number, cycle by cycle, which must be the one that the interpreter finds.
 """
 import argparse
@@ -40,6 +40,10 @@ class Chart:
                 qualifier = chance.choice(["N", "N", "R", "S", "L", "D", "P", "SD", "DS", "SL", "P1", "P0"])
                 step.append((chance.randrange(len(self.actions)), qualifier))
         self.flags = chance.random() < 0.3
+        # Of each step the least and the greatest time, in ms; None: not written.
+        self.watched = chance.random() < 0.4
+        self.limits = [(chance.choice([None, 0, 10, 20]), chance.choice([None, None, 0, 20, 35])) if self.watched else (None, None)
+                       for _ in self.steps]
         self.skips = chance.random() < 0.3
 
     def step(self):
@@ -122,12 +126,18 @@ class Chart:
             return f"{text}:\n  LD bits.{condition[1]}\nEND_TRANSITION"
         return f"{text} := {self.condition(condition)};\nEND_TRANSITION"
 
+    def times(self, step):
+        written = [f"{word} := T#{time}ms" for word, time in zip(("MIN_TIME", "MAX_TIME"), self.limits[step]) if time is not None]
+        return f" ({', '.join(written)})" if written else ""
+
     def text(self):
         flags = "SFCInit, SFCReset, SFCPause, SFCTipMode, SFCTip : BOOL; " if self.flags else ""
+        if self.watched:
+            flags += "SFCEnableLimit, SFCQuitError, SFCError : BOOL; SFCErrorStep, SFCErrorPOU : STRING; "
         out = [f"FUNCTION_BLOCK Chart{self.number}", f"VAR_INPUT hash : ULINT; bits : WORD; {flags}END_VAR", "VAR"]
         out += [f"  a{i} : BOOL;" for i, (kind, _) in enumerate(self.actions) if kind == "variable"]
         out.append("END_VAR")
-        parts = [f"{'INITIAL_STEP' if i == self.initial else 'STEP'} s{i}:\n" + "".join(
+        parts = [f"{'INITIAL_STEP' if i == self.initial else 'STEP'} s{i}{self.times(i)}:\n" + "".join(
             f"  a{action}({qualifier}{f', T#{self.actions[action][1]}ms' if qualifier in TIMED else ''});\n"
             for action, qualifier in step) + "END_STEP" for i, step in enumerate(self.steps)]
         order = [self.transition(i) for i in range(len(self.transitions))]
@@ -150,10 +160,17 @@ class Chart:
         if self.flags:
             out += [f"{name}.SFCInit := bits.12 AND bits.13 AND bits.3;", f"{name}.SFCReset := bits.13 AND bits.14 AND bits.2;",
                     f"{name}.SFCPause := bits.14 AND bits.15;", f"{name}.SFCTipMode := bits.10;", f"{name}.SFCTip := bits.9;"]
+        if self.watched:
+            out += [f"{name}.SFCEnableLimit := bits.7 OR bits.8;", f"{name}.SFCQuitError := bits.5 AND bits.6 AND bits.4;",
+                    f"IF bits.1 AND bits.2 THEN {name}.SFCError := FALSE; END_IF;"]
         call = f"{name}();"
         out.append(f"IF bits.11 THEN {call} END_IF;" if self.skips else call)
         seen = [f"SEL({name}.s{i}.x, ULINT#0, ULINT#1) + TIME_TO_ULINT({name}.s{i}.t) * 2" for i in range(len(self.steps))]
         seen += [f"SEL({name}.a{i}, ULINT#0, ULINT#1)" for i, (kind, _) in enumerate(self.actions) if kind == "variable"]
+        if self.watched:
+            number = f"STRING_TO_ULINT(DELETE({name}.SFCErrorStep, 1, 1))"
+            seen += [f"SEL({name}.SFCError, ULINT#0, ULINT#1)", f"SEL({name}.SFCErrorStep = '', {number}, ULINT#777)",
+                     f"SEL({name}.SFCErrorPOU = 'Chart{self.number}', ULINT#0, ULINT#1)"]
         out += [f"{name}.hash := ({name}.hash * 31 + {one}) MOD {MODULUS};" for one in seen]
         return out
 
@@ -222,7 +239,8 @@ class Interpreter:
         self.times = [0] * len(chart.steps)
         self.variables = [False] * len(chart.actions)
         self.hash = 0
-        self.tip = False  # at the last call
+        self.tip = self.quit = False  # at the last call
+        self.error, self.wrong = False, None  # SFCError, and the step that it is about
         self.clear()
 
     def clear(self):
@@ -257,6 +275,25 @@ class Interpreter:
         for step in entered:
             self.entered[step], self.times[step] = now, 0
 
+    def watch(self, left):
+        for step in sorted(self.active):
+            least, greatest = self.chart.limits[step]
+            late = greatest and self.times[step] > greatest
+            if (late or (step in left and least is not None and self.times[step] < least)) and not self.error:
+                self.error, self.wrong = True, step
+
+    def quits(self, bits, now):
+        """SFCQuitError, which is also given back"""
+        if not self.chart.watched:
+            return False
+        stop = bool(bits >> 5 & bits >> 6 & bits >> 4 & 1)
+        if stop:
+            self.error, self.wrong = False, None
+        elif self.quit:
+            self.change(set(), set(self.active), now)
+        self.quit = stop
+        return stop
+
     def call(self, bits, now):
         flags = self.chart.flags
         init, reset, pause = (flags and bool(bits >> a & bits >> b & (bits >> c) & 1)
@@ -264,17 +301,23 @@ class Interpreter:
         tip = bool(bits >> 9 & 1)
         tipped = tip and not self.tip if flags and bits >> 10 & 1 else None
         self.tip = tip
+        stop = self.quits(bits, now)
+        pause = pause or stop
         again = not self.active or init or reset
         if again or not pause:
             for step in self.active:
                 self.times[step] = now - self.entered[step]
         if again:
             if init or reset:
-                pause = False  # the flag itself becomes FALSE
+                pause = False  # the flags themselves become FALSE
+                self.error, self.wrong = False, None
             self.change(set(self.active), {self.chart.initial}, now)
             self.clear()
         elif not pause:
-            self.change(*self.fire(bits, tipped), now)
+            left, entered = self.fire(bits, tipped)
+            if self.chart.watched and bits & 0x180:
+                self.watch(left)
+            self.change(left, entered, now)
         if not init and not pause:
             self.act(now)
 
@@ -297,6 +340,10 @@ class Interpreter:
         for action, (kind, _) in enumerate(self.chart.actions):
             if kind == "variable":
                 self.fold(self.variables[action])
+        if self.chart.watched:
+            self.fold(self.error)
+            self.fold(777 if self.wrong is None else self.wrong)
+            self.fold(self.wrong is not None)
 
 
 def program(charts, seed):
@@ -314,6 +361,8 @@ def expected(charts, seed):
         seed = (seed * 1103515245 + 12345) % 2147483648
         bits = seed // 4096 % 65536
         for one in found:
+            if bits >> 1 & bits >> 2 & 1:
+                one.error = False  # by the program
             if not one.chart.skips or bits >> 11 & 1:
                 one.call(bits, cycle * CYCLE_MS)
             one.see()

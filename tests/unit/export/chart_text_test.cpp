@@ -28,6 +28,19 @@ TEST(ChartText, ReadsStepsAndActions) {
   EXPECT_EQ(actions[3].qualifier, "S");
 }
 
+TEST(ChartText, ReadsTimesOfSteps) {
+  const auto chart =
+      chartText("INITIAL_STEP A (min_time := Least(a := 1, b := 2), MAX_TIME := times[1, 2]): "
+                "Work(L, MAX(T#1s, a) (* , *) , done, other); END_STEP\n"
+                "STEP B (MAX_TIME := T#5s): END_STEP");
+  ASSERT_TRUE(chart);
+  EXPECT_EQ(chart->steps[0].minTime, "Least(a := 1, b := 2)");
+  EXPECT_EQ(chart->steps[0].maxTime, "times[1, 2]");
+  EXPECT_EQ(chart->steps[0].actions[0].indicator, "done, other");
+  EXPECT_EQ(chart->steps[1].minTime, "");
+  EXPECT_EQ(chart->steps[1].maxTime, "T#5s");
+}
+
 TEST(ChartText, ReadsTransitions) {
   const auto chart =
       chartText("STEP A: END_STEP STEP B: END_STEP STEP from: END_STEP\n"
@@ -59,10 +72,21 @@ TEST(ChartText, LeavesWhatItCannotSay) {
   EXPECT_FALSE(chartText(""));
   EXPECT_FALSE(chartText("step := 1;"));
   EXPECT_FALSE(chartText("STEP A: END_STEP x := 1;"));
-  EXPECT_FALSE(chartText("STEP A: {warning 'w'} END_STEP"));
+  EXPECT_FALSE(chartText("STEP A: END_STEP {warning 'after the last part'}"));
   EXPECT_FALSE(chartText("STEP A: Work(L, T#1s"));
   EXPECT_FALSE(chartText("STEP A: END_STEP TRANSITION (PRIORITY := 16#2) FROM A TO A := b; "
                          "END_TRANSITION"));
+}
+
+TEST(ChartText, KeepsPragmasBesideTheirParts) {
+  const auto chart =
+      chartText("{warning 'a } b'}// why\nSTEP A: {info 'in'} w; END_STEP {text 't'}\n"
+                "TRANSITION FROM A {text 'u'} TO A := b {text 'c'}; END_TRANSITION");
+  ASSERT_TRUE(chart);
+  EXPECT_EQ(chart->steps[0].pragmas, "{warning 'a } b'}\n{info 'in'}\n");
+  EXPECT_EQ(chart->steps[0].comment, "why\n");
+  EXPECT_EQ(chart->transitions[0].pragmas, "{text 't'}\n{text 'u'}\n");
+  EXPECT_EQ(chart->transitions[0].condition, "b {text 'c'}");
 }
 
 /// A time where the qualifier has one; what follows are indicator variables.

@@ -150,7 +150,7 @@ TEST(SclReader, GivesStructuresNames) {
 
 TEST(SclReader, NamesWhatHasNoCounterpart) {
   const Model model = read("FUNCTION_BLOCK F\nVAR\n  t : Variant;\n  w : Word;\n  b AT w : "
-                           "Array[0..15] of Bool;\nEND_VAR\nCONST\n  K := 5 * M;\nEND_CONST\n"
+                           "Array[0..16] of Bool;\nEND_VAR\nCONST\n  K := 5 * M;\nEND_CONST\n"
                            "LABEL\n  m1;\nEND_LABEL\nBEGIN\n  #s := S5T#2s;\n  #x := "
                            "%DB1.DBX0.0;\nEND_FUNCTION_BLOCK\nrest\n");
   ASSERT_EQ(model.objects.size(), 1U);
@@ -241,7 +241,7 @@ TEST(SclConstants, KeepViewsOfOneSize) {
 TEST(SclReader, KeepsViewsAndDatesInStatements) {
   const Model model =
       read("FUNCTION_BLOCK F\nVAR_INPUT\n  r : Real;\nEND_VAR\nVAR\n  d AT r : DWord; // bits\n"
-           "  w : Word;\n  b AT w : Array[0..1] of Byte;\n  t : DTL := DTL#2020-02-29-01:02:03;\n"
+           "  w : Word;\n  b AT w : Array[0..1] of Char;\n  t : DTL := DTL#2020-02-29-01:02:03;\n"
            "END_VAR\nBEGIN\n  #d := #d AND DW#16#7FFF_FFFF;\n  G(d := #x.d);\n  d += d.%B0;\n"
            "  #t := DTL#2021-01-02-03:04:05.006;\nEND_FUNCTION_BLOCK\n");
   ASSERT_EQ(model.leftOut.size(), 1U);
@@ -249,13 +249,38 @@ TEST(SclReader, KeepsViewsAndDatesInStatements) {
   ASSERT_FALSE(model.objects.empty());
   EXPECT_EQ(model.objects[0].text,
             "FUNCTION_BLOCK F\nVAR_INPUT\n  r : Real;\nEND_VAR\nVAR\n   // bits\n  w : Word;\n"
-            "  b AT w : Array[0..1] of Byte;\n  t : DTL := (YEAR := 2020, MONTH := 2, DAY := 29, "
+            "  b AT w : Array[0..1] of Char;\n  t : DTL := (YEAR := 2020, MONTH := 2, DAY := 29, "
             "WEEKDAY := 7, HOUR := 1, MINUTE := 2, SECOND := 3, NANOSECOND := 0);\n"
             "END_VAR\nVAR_TEMP\n  d : POINTER TO DWord;\nEND_VAR\nVAR CONSTANT\n"
             "  DTL_2021_01_02_03_04_05_006 : DTL := (YEAR := 2021, MONTH := 1, DAY := 2, "
             "WEEKDAY := 7, HOUR := 3, MINUTE := 4, SECOND := 5, NANOSECOND := 6000000);\n"
             "END_VAR\nd := ADR(r);\n\n  d^ := d^ AND DWORD#16#7FFF_FFFF;\n  G(d := x.d);\n"
             "  d^ := d^ + ( d^.%B0);\n  t := DTL_2021_01_02_03_04_05_006;\nEND_FUNCTION_BLOCK\n");
+}
+
+/// Byte 0 is the high one; a part that only the running program chooses has no counterpart.
+TEST(SclReader, MakesBitsAndBytesOfViewsWithParts) {
+  const Model model = read(
+      "FUNCTION_BLOCK F\nVAR\n  w : Word;\n  r : Real;\n  bits AT w : Array[0..15] of Bool;\n"
+      "  bytes AT r : Array[1..4] of Byte;\n  s AT w : Struct\n    a, b : Bool;\n    c : Byte;\n"
+      "  END_STRUCT ;\n  words AT r : Array[0..1] of Word;\n  any AT w : Array[0..15] of Bool;\n"
+      "  all AT w : Array[0..15] of Bool;\n  beyond AT w : Array[0..15] of Bool;\n  i : Int;\n"
+      "END_VAR\nBEGIN\n  #bits[0] := bits [ 15 ];\n  #bytes[1] += #bytes[4];\n  #s.\"B\" := "
+      "s.a;\n  G(bits := #x.bits, i := #s.c);\n  #words[0] := #words[01];\n  #any[#i] := TRUE;\n"
+      "  H(#all);\n  #beyond[16] := TRUE;\nEND_FUNCTION_BLOCK\n");
+  ASSERT_EQ(model.leftOut.size(), 3U);
+  EXPECT_EQ(model.leftOut[0].origin.line, 12U);
+  EXPECT_EQ(model.leftOut[1].origin.line, 13U);
+  EXPECT_EQ(model.leftOut[2].origin.line, 14U);
+  ASSERT_EQ(model.objects.size(), 1U);
+  const std::string &text = model.objects[0].text;
+  EXPECT_EQ(
+      text.substr(text.find("VAR_TEMP")),
+      "VAR_TEMP\n  bits : POINTER TO WORD;\n  bytes : POINTER TO DWORD;\n  s : POINTER TO "
+      "WORD;\n  words : POINTER TO DWORD;\nEND_VAR\nbits := ADR(w);\nbytes := ADR(r);\ns := "
+      "ADR(w);\nwords := ADR(r);\n\n  bits^.8 := bits^.7;\n  bytes^.%B3 := bytes^.%B3 + ( "
+      "bytes^.%B0);\n  s^.9 := s^.8;\n  G(bits := x.bits, i := s^.%B0);\n  words^.%W1 := "
+      "words^.%W0;\n  any[i] := TRUE;\n  H(all);\n  beyond[16] := TRUE;\nEND_FUNCTION_BLOCK\n");
 }
 
 /// The CPU brings it along; here it becomes a structure, once.
