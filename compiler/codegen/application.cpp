@@ -312,16 +312,25 @@ private:
            cases + "    default:\n      break;\n    }\n  }\n";
   }
 
+  /// A function that calls programs in a cycle of a task.
+  void calls(std::string &out, const std::string &what, const std::string &name, size_t task,
+             const std::vector<PouSymbol *> &programs) {
+    out += "\n/// " + what + "\nvoid " + name + "(::stride::Ctx *" +
+           (programs.empty() ? "" : "ctx__") + ") {\n" + copies_.take(task);
+    for (const PouSymbol *p : programs)
+      out += "  app__(ctx__)." + memberName({p, false}) + ".body__(*ctx__);\n";
+    out += copies_.give(task) + "}\n";
+  }
+
   void tasks(std::string &out) {
     std::string rows;
     for (size_t i = 0; i < config_.tasks.size(); ++i) {
       const AppConfig::Task &task = config_.tasks[i];
       const std::string name = "task" + std::to_string(i) + "__";
-      out += "\n/// " + task.name + "\nvoid " + name + "(::stride::Ctx *" +
-             (task.programs.empty() ? "" : "ctx__") + ") {\n" + copies_.take(i);
-      for (const PouSymbol *p : task.programs)
-        out += "  app__(ctx__)." + memberName({p, false}) + ".body__(*ctx__);\n";
-      out += copies_.give(i) + "}\n";
+      calls(out, task.name, name, i, task.programs);
+      const std::string inStop = task.stopPrograms.empty() ? "" : "stop" + std::to_string(i) + "__";
+      if (!inStop.empty())
+        calls(out, task.name + " in STOP", inStop, i, task.stopPrograms);
       std::string event = "nullptr";
       if (task.event != nullptr) {
         event = "event" + std::to_string(i) + "__";
@@ -334,11 +343,14 @@ private:
               ", " + std::to_string(task.priority) + ", " + std::to_string(task.intervalNs) + ", " +
               std::to_string(task.watchdogNs) + ", " + std::to_string(task.watchdogSensitivity) +
               ", " + (task.core ? std::to_string(*task.core) : "::stride::kNoIndex") + ", " + name +
-              ", " + event + (task.sync ? ", " + std::to_string(*task.sync) : "") + "},\n";
+              ", " + event;
+      if (task.sync || !inStop.empty())
+        rows += ", " + (task.sync ? std::to_string(*task.sync) : "::stride::kNoIndex");
+      rows += (inStop.empty() ? "" : ", " + inStop) + "},\n";
     }
     if (!rows.empty())
       out += "\n// {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, core, run, "
-             "event, sync}\n"
+             "event, sync, runInStop}\n"
              "constexpr ::stride::TaskDesc kTasks[] = {\n" +
              rows + "};\n";
   }

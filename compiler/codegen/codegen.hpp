@@ -41,6 +41,8 @@ struct AppConfig {
     std::optional<unsigned> core;      ///< processor to run on
     std::vector<PouSymbol *> programs; ///< called in this order
     std::optional<size_t> sync;        ///< axis group whose bSync is the event
+    /// Called in place of programs while the PLC is in STOP. What they use, programs use, too.
+    std::vector<PouSymbol *> stopPrograms;
   };
   struct Drive {
     std::string name; ///< of the global AXIS_REF
@@ -79,6 +81,7 @@ struct AppConfig {
     uint32_t outputCount = 0;
     std::vector<uint8_t> safeOutputs;
     std::vector<uint8_t> safeInputs; ///< empty: inputs of a lost device stay
+    bool holdsInStop = false;        ///< outputs keep their values in STOP
     std::vector<ConfigParameter> parameters;
   };
   /// What one technical unit is, where stride.toml says so.

@@ -41,7 +41,7 @@ void PlcTables::write() {
   if (!ioRows_.empty())
     text_ += "\n" + ioBytes_ +
              "// {name, driverName, stateOffset, inputFirst, inputCount, outputFirst, outputCount, "
-             "safeOutputs,\n// safeInputs, firstParameter, parameterCount}\n"
+             "safeOutputs,\n// safeInputs, firstParameter, parameterCount, holdsInStop}\n"
              "constexpr ::stride::IoDeviceDesc kIoDevices[] = {\n" +
              ioRows_ + "};\n";
 }
@@ -153,7 +153,7 @@ void PlcTables::addIoDevices() {
                "\", offsetof(App__, " + place + "), " + std::to_string(device.inputFirst) + ", " +
                std::to_string(device.inputCount) + ", " + std::to_string(device.outputFirst) +
                ", " + std::to_string(device.outputCount) + ", " + outputs + ", " + inputs + ", " +
-               addParameters(device.parameters) + "},\n";
+               addParameters(device.parameters) + (device.holdsInStop ? ", 1" : "") + "},\n";
   }
 }
 

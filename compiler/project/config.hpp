@@ -34,7 +34,9 @@ struct TaskConfig {
   unsigned watchdogSensitivity = 1; ///< violations that stop the application
   std::optional<unsigned> core;     ///< processor to run on
   std::vector<ConfigName> programs; ///< called in this order
-  Span section;                     ///< [[task]] of stride.toml
+  /// Called in place of them while the PLC is in STOP: what modules of [[csy]] go on with.
+  std::vector<ConfigName> stopPrograms;
+  Span section; ///< [[task]] of stride.toml
   /// The first key that a task of a CONFIGURATION cannot have; empty: it only adds to such a one.
   ConfigName own;
 };

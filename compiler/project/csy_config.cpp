@@ -53,6 +53,7 @@ constexpr std::array<Choice, 5> kShapes = {{{"rectangle", 100},
                                             {"triangle", 200}}};
 constexpr std::array<Choice, 2> kInterpolations = {{{"linear", 0}, {"cubic", 1}}};
 constexpr std::array<Choice, 2> kPositions = {{{"measured", 0}, {"setpoint", 1}}};
+constexpr std::array<Choice, 2> kOnStop = {{{"fallback", 0}, {"hold", 1}}};
 constexpr std::array<Choice, 2> kLinks = {{{"gear", 0}, {"cam", 1}}};
 // The numbers are those of bits 8 to 10 of FOLL_DESCRIPTION.
 constexpr std::array<Choice, 5> kStarts = {
@@ -149,6 +150,7 @@ constexpr std::array kModuleAxisKeys = {
     identifier("axis"),
     identifier("encoder"),
     positive("manual_speed", "speed").defaultsTo(1),
+    choice("on_stop", kOnStop),
 };
 constexpr std::array<const SectionSchema *, 1> kModuleAxisSections = {&kModuleAxisParameters};
 constexpr SectionSchema kModuleAxis = {"axis", "an axis of a module", "csy.axis",
@@ -165,19 +167,21 @@ constexpr auto kModuleSlaveKeys = rows(kSlaveFields, std::array<Parameter, 0>{})
 constexpr SectionSchema kModuleSlave = {"slave", "a slave",        "csy.follower.slave",
                                         true,    kModuleSlaveKeys, {}};
 constexpr std::array kModuleFollowerKeys = {whole("channel", 21, 24).needed(),
-                                            whole("master", 1, 16)};
+                                            whole("master", 1, 16), choice("on_stop", kOnStop)};
 constexpr std::array<const SectionSchema *, 1> kModuleFollowerSections = {&kModuleSlave};
 constexpr SectionSchema kModuleFollower = {"follower",          "a follower group",
                                            "csy.follower",      true,
                                            kModuleFollowerKeys, kModuleFollowerSections};
 
 constexpr std::array kModuleCoordinatedKeys = {whole("channel", 17, 20).needed(),
-                                               Parameter{"axes", ParameterType::NameList, true}};
+                                               Parameter{"axes", ParameterType::NameList, true},
+                                               choice("on_stop", kOnStop)};
 constexpr SectionSchema kModuleCoordinated = {
     "coordinated", "a coordinated group", "csy.coordinated", true, kModuleCoordinatedKeys, {}};
 
 constexpr auto kCsyKeys = rows(kModuleFields, std::array{whole("rack", 0, kLastRack).needed(),
-                                                         whole("slot", 0, kLastSlot).needed()});
+                                                         whole("slot", 0, kLastSlot).needed(),
+                                                         choice("on_stop", kOnStop).defaultsTo(0)});
 constexpr std::array<const SectionSchema *, 4> kCsySections = {
     &kModuleAxis, &kModuleCam, &kModuleFollower, &kModuleCoordinated};
 constexpr SectionSchema kCsy = {"csy", "a module", "csy", true, kCsyKeys, kCsySections};
@@ -230,6 +234,7 @@ public:
     csy_.rack = static_cast<uint32_t>(section_.integer("rack", 0));
     csy_.slot = static_cast<uint32_t>(section_.integer("slot", 0));
     csy_.inputs = fieldsOf(section_, kModuleFields);
+    csy_.onStop = static_cast<CsyOnStop>(section_.choice("on_stop"));
     for (const CheckedSection &axis : section_.sections("axis", diagnostics_))
       readAxis(axis);
     for (const CheckedSection &cam : section_.sections("cam", diagnostics_))
@@ -272,7 +277,13 @@ private:
       withoutEffect(diagnostics_, section, "axis", "for channels 1 to 12 only");
       axis.axis = {};
     }
+    axis.onStop = onStop(section);
     csy_.axes.push_back(std::move(axis));
+  }
+
+  /// Of a channel; what the module says where it says nothing.
+  CsyOnStop onStop(const CheckedSection &section) const {
+    return section.has("on_stop") ? static_cast<CsyOnStop>(section.choice("on_stop")) : csy_.onStop;
   }
 
   void needs(const CheckedSection &section, std::string_view key, const ConfigName &name) {
@@ -325,6 +336,7 @@ private:
         needsCam(slave);
       group.slaves.push_back(fieldsOf(slave, kSlaveFields));
     }
+    group.onStop = onStop(section);
     csy_.followers.push_back(std::move(group));
   }
 
@@ -350,6 +362,7 @@ private:
                           fmt::format("this one has {}", group.axes.size()));
       return;
     }
+    group.onStop = onStop(section);
     csy_.coordinated.push_back(std::move(group));
   }
 

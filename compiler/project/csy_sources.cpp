@@ -1,10 +1,12 @@
 #include "compiler/project/csy_sources.hpp"
 
+#include "compiler/assets/csy/channel_outputs.hpp"
 #include "compiler/source/suggest.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <optional>
 #include <unordered_map>
 
 namespace stc {
@@ -110,8 +112,11 @@ private:
     variables_.clear();
     instances_.clear();
     calls_.clear();
+    callsInStop_.clear();
+    held_.clear();
     declareChannel("0", "T_CSY_RING");
     declareChannel("MOD", "T_GEN_MOD");
+    declareInStop(0, "T_CSY_RING", csy.onStop);
     for (const CsyAxisConfig &axis : csy.axes)
       addAxis(axis);
     for (const CsyCamConfig &cam : csy.cams)
@@ -127,8 +132,22 @@ private:
       return;
     writeModule(csy);
     for (TaskConfig &task : config_.tasks)
-      if (equalIgnoringCase(task.name.text, task_))
+      if (equalIgnoringCase(task.name.text, task_)) {
         task.programs.insert(task.programs.begin(), {prefix_ + "__service", csy.span});
+        task.stopPrograms.push_back({prefix_ + "__stop", csy.span});
+      }
+  }
+
+  /// In STOP a channel is served with other outputs than its own, which are the program's: with
+  /// zeros, or with what the own ones were when STOP began.
+  void declareInStop(uint32_t channel, std::string_view type, CsyOnStop onStop) {
+    variables_ += fmt::format("  {{attribute 'hide'}}\n  {{attribute 'csy_stop'}}\n"
+                              "  {}_{}_stop AT %CH{}.{} : CSY.{};\n",
+                              prefix_, channel, place_, channel, type);
+    if (onStop != CsyOnStop::Hold)
+      return;
+    for (const std::string &output : csyOutputsOf(channel))
+      held_ += fmt::format("    {0}_{1}_stop.{2} := {0}_{1}.{2};\n", prefix_, channel, output);
   }
 
   void declareChannel(std::string_view channel, std::string_view type) {
@@ -136,14 +155,21 @@ private:
                               channel, place_, channel, type);
   }
 
-  /// A function block that serves a channel.
+  /// A function block that serves a channel. `onStop`: of channels with outputs.
   void serve(uint32_t channel, std::string_view block, std::string_view type,
-             const std::string &settings, std::string_view arguments) {
+             const std::string &settings, std::string_view arguments,
+             std::optional<CsyOnStop> onStop) {
     declareChannel(fmt::format("{}", channel), type);
+    if (onStop)
+      declareInStop(channel, type, *onStop);
     instances_ +=
         fmt::format("  fb{0} : CSY.{1} := (iChannel := {0}{2});\n", channel, block, settings);
-    calls_ +=
-        fmt::format("fb{0}(Module := {1}, Channel := {1}_{0}{2});\n", channel, prefix_, arguments);
+    const auto call = [&](std::string_view inStop) {
+      return fmt::format("  fb{0}(Module := {1}, Channel := {1}_{0}{2}{3});\n", channel, prefix_,
+                         inStop, arguments);
+    };
+    calls_ += call("");
+    callsInStop_ += call(onStop ? "_stop" : "");
   }
 
   void addAxis(const CsyAxisConfig &axis) {
@@ -159,7 +185,7 @@ private:
         join(*found, axis.encoder);
         encoder = fmt::format(", pEncoder := ADR({})", found->name);
       }
-      serve(axis.channel, "CSY_REMOTE", "T_CSY_IND", parameters + encoder, "");
+      serve(axis.channel, "CSY_REMOTE", "T_CSY_IND", parameters + encoder, "", axis.onStop);
       return;
     }
     if (!axis.axis.span.valid())
@@ -172,7 +198,7 @@ private:
     serve(axis.channel, "CSY_AXIS", "T_CSY_IND",
           fmt::format(", bImaginary := {}{}{}", axis.channel >= kFirstImaginary ? "TRUE" : "FALSE",
                       parameters, inputs(axis.inputs)),
-          fmt::format(", Axis := {}", found->name));
+          fmt::format(", Axis := {}", found->name), axis.onStop);
   }
 
   void addCam(const CsyCamConfig &cam) {
@@ -189,7 +215,7 @@ private:
                       "ADR({1}_{2}_Slave){3}{4}{5}",
                       cam.points, prefix_, cam.channel, inputs(cam.inputs),
                       table("pMasterTable", cam.masterTable), table("pSlaveTable", cam.slaveTable)),
-          "");
+          "", std::nullopt);
   }
 
   void addFollower(const CsyFollowerConfig &group) {
@@ -209,7 +235,7 @@ private:
     serve(group.channel, "CSY_FOLLOWER", "T_CSY_FOLLOW",
           fmt::format(", iMaster := {}{}{}", group.master,
                       slaves.empty() ? std::string() : ", astConfigured := [" + slaves + "]", path),
-          "");
+          "", group.onStop);
   }
 
   void addCoordinated(const CsyCoordinatedConfig &group, const CsyConfig &csy) {
@@ -227,7 +253,7 @@ private:
             .help("name axes of [[csy.axis]]");
     }
     serve(group.channel, "CSY_COORDINATED", "T_CSY_COORD",
-          fmt::format(", aiConfigured := [{}]", fmt::join(members, ", ")), "");
+          fmt::format(", aiConfigured := [{}]", fmt::join(members, ", ")), "", group.onStop);
   }
 
   void writeModule(const CsyConfig &csy) {
@@ -246,13 +272,19 @@ private:
       }
     out_.add(fmt::format("{{attribute 'hide'}}\nPROGRAM {}__service\nVAR\n"
                          "  fb0 : CSY.CSY_RING := (iRack := {}, iSlot := {}, pMemory := "
-                         "ADR(%MW0){}{});\n{}END_VAR\n",
+                         "ADR(%MW0){}{});\n{}  bWasInStop : BOOL;\nEND_VAR\n",
                          prefix_, csy.rack, csy.slot, inputs(csy.inputs), groups, instances_),
              csy.span);
-    out_.add(
-        fmt::format("fb0(Module := {0}, Channel := {0}_0, General := {0}_MOD);\n{1}END_PROGRAM\n",
-                    prefix_, calls_),
-        csy.span);
+    out_.add(fmt::format(
+                 "IF {0}.bInStop THEN\n  IF NOT bWasInStop THEN\n    bWasInStop := TRUE;\n{1}"
+                 "  END_IF\n  fb0(Module := {0}, Channel := {0}_0_stop, General := {0}_MOD);\n{2}"
+                 "ELSE\n  bWasInStop := FALSE;\n"
+                 "  fb0(Module := {0}, Channel := {0}_0, General := {0}_MOD);\n{3}"
+                 "END_IF\nEND_PROGRAM\n"
+                 "{{attribute 'hide'}}\nPROGRAM {0}__stop\n{0}.bInStop := TRUE;\n"
+                 "{0}__service();\n{0}.bInStop := FALSE;\nEND_PROGRAM\n",
+                 prefix_, held_, callsInStop_, calls_),
+             csy.span);
   }
 
   ProjectConfig &config_;
@@ -269,6 +301,8 @@ private:
   std::string variables_;
   std::string instances_;
   std::string calls_;
+  std::string callsInStop_;
+  std::string held_; ///< outputs that are kept when STOP begins
 };
 
 } // namespace

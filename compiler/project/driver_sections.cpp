@@ -26,6 +26,8 @@ constexpr double kImageArea = 16777216;
 
 constexpr std::array<Choice, 2> kOnLoss = {{{"keep", 0}, {"safe", 1}}};
 
+constexpr std::array<Choice, 2> kOnStop = {{{"fallback", 0}, {"hold", 1}}};
+
 constexpr std::array kIoParameters = {
     common::identifier("name").needed(),
     common::whole("inputs_at", 0, kImageArea, "bytes").defaultsTo(0),
@@ -33,6 +35,7 @@ constexpr std::array kIoParameters = {
     common::whole("outputs_at", 0, kImageArea, "bytes").defaultsTo(0),
     common::whole("outputs", 0, kImageArea, "bytes").defaultsTo(0),
     common::choice("on_loss", kOnLoss).defaultsTo(0),
+    common::choice("on_stop", kOnStop).defaultsTo(0),
 };
 
 constexpr std::array kIoChannelParameters = {

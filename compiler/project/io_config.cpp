@@ -100,6 +100,7 @@ public:
     device.safeOutputs.resize(device.outputCount);
     if (section_.choice("on_loss") == 1)
       device.safeInputs.resize(device.inputCount);
+    device.holdsInStop = section_.choice("on_stop") == 1;
     readParameters(driver, device);
     readDriverTables(section_, {.counts = {}, .what = "I/O device"}, device.parameters,
                      diagnostics_);

@@ -336,6 +336,15 @@ std::vector<std::pair<std::string, std::string>> Project::units() const {
   return units;
 }
 
+std::vector<PouSymbol *> Project::programsOf(const std::vector<ConfigName> &names) const {
+  std::vector<PouSymbol *> programs;
+  for (const ConfigName &name : names)
+    for (PouSymbol *pou : program_.user->pous)
+      if (pou->decl->kind == ast::DeclKind::Program && equalIgnoringCase(pou->name.text, name.text))
+        programs.push_back(pou);
+  return programs;
+}
+
 AppConfig Project::appConfig() const {
   AppConfig app;
   if (ownName_)
@@ -361,11 +370,8 @@ AppConfig Project::appConfig() const {
     for (size_t i = 0; i < config_.axisGroups.size(); ++i)
       if (isSyncOf(from, config_.axisGroups[i]))
         task.sync = i;
-    for (const ConfigName &program : from.programs)
-      for (PouSymbol *pou : program_.user->pous)
-        if (pou->decl->kind == ast::DeclKind::Program &&
-            equalIgnoringCase(pou->name.text, program.text))
-          task.programs.push_back(pou);
+    task.programs = programsOf(from.programs);
+    task.stopPrograms = programsOf(from.stopPrograms);
     app.tasks.push_back(std::move(task));
   }
   for (const IoConfig &io : config_.ioDevices)

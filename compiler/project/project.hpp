@@ -73,6 +73,7 @@ public:
   [[nodiscard]] AppConfig appConfig() const;
 
 private:
+  [[nodiscard]] std::vector<PouSymbol *> programsOf(const std::vector<ConfigName> &names) const;
   void load(const std::filesystem::path &given);
   void loadFolder();
   void loadFile(const std::filesystem::path &path, const std::string &name);

@@ -17,7 +17,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 8;
+inline constexpr uint32_t kAbiVersion = 9;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -128,6 +128,9 @@ struct TaskDesc {
   /// Event: the axis group whose bSync it is; the driver of that bus starts the task. For the task
   /// that serves the group, intervalNs is the time from SYNC to SYNC. Else kNoIndex.
   uint32_t sync = kNoIndex;
+  /// Called in place of `run` while the PLC is in STOP: what devices that are served by programs (a
+  /// TSX CSY 85) go on with. Null: nothing.
+  void (*runInStop)(Ctx *ctx) = nullptr;
 };
 
 /// One parameter of the PLC configuration, as the driver gets it. Which there are, the driver's
@@ -233,6 +236,9 @@ struct IoDeviceDesc {
   const uint8_t *safeInputs;  ///< What inputs become when the device is lost; null: they stay.
   uint32_t firstParameter;    ///< Into the parameter table.
   uint32_t parameterCount;
+  /// While the PLC is in STOP: 0: its outputs have their safe values (fallback), 1: the last ones
+  /// of RUN (hold).
+  uint32_t holdsInStop = 0;
 };
 
 /// What the numbers of direct addresses count (stride.toml: [image] addressing).

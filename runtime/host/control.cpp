@@ -92,6 +92,15 @@ void showStatistics(const json &result) {
   }
 }
 
+void showState(const json &state) {
+  const bool inStop = state.at("state") == "running" && state.at("mode") == "STOP";
+  put(stdout, "{}: {} at {:.3f} s\n", state.at("name").get<std::string>(),
+      inStop ? std::string("in STOP") : state.at("state").get<std::string>(),
+      state.at("time").get<double>());
+  if (state.contains("fault"))
+    put(stdout, "{}\n", state.at("fault").get<std::string>());
+}
+
 /// All pages of a list.
 void showList(SocketClient &client, json request) {
   uint64_t shown = 0;
@@ -318,13 +327,8 @@ void Control::Impl::declareRecordings(CLI::App &command) {
 void Control::Impl::declareRun(CLI::App &command) {
   add(command, "stats", "Show the figures of the tasks",
       [this](SocketClient &client) { showStatistics(client.ask(request("statistics"))); });
-  add(command, "state", "Show what the application is doing", [this](SocketClient &client) {
-    const json state = client.ask(request("state"));
-    put(stdout, "{}: {} at {:.3f} s\n", state.at("name").get<std::string>(),
-        state.at("state").get<std::string>(), state.at("time").get<double>());
-    if (state.contains("fault"))
-      put(stdout, "{}\n", state.at("fault").get<std::string>());
-  });
+  add(command, "state", "Show what the application is doing",
+      [this](SocketClient &client) { showState(client.ask(request("state"))); });
   add(command, "change", "Take new builds of the applications over (online change)",
       [this](SocketClient &client) {
         json question = request("online_change");
@@ -333,8 +337,13 @@ void Control::Impl::declareRun(CLI::App &command) {
         showChange(client.ask(question));
       })
       ->add_flag("--accept-losses", acceptLosses, "Also when values of variables get lost");
-  add(command, "stop", "End the run",
-      [this](SocketClient &client) { client.ask(request("stop")); });
+  add(command, "stop",
+      "Put the PLC into STOP: no POU runs, drives, inputs and this go on; outputs as `on_stop` "
+      "says",
+      [this](SocketClient &client) { showState(client.ask(request("stop"))); });
+  add(command, "start", "Put the PLC back to RUN, with the values that the variables have",
+      [this](SocketClient &client) { showState(client.ask(request("start"))); });
+  add(command, "end", "End the run", [this](SocketClient &client) { client.ask(request("end")); });
 }
 
 void Control::declare(CLI::App &command) {

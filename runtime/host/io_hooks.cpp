@@ -101,6 +101,7 @@ public:
   void beforePous(Ctx &ctx) override { image_.beforePous(ctx); }
   void afterPous(Ctx &ctx) override { image_.afterPous(ctx); }
   void applicationStopped() override { image_.applicationStopped(); }
+  void modeChanged(task::OperatingMode mode) override { image_.modeChanged(mode); }
   void rebind(const StrideAppV1 &app, std::byte *state) noexcept override {
     image_.rebind(app, state);
   }

@@ -118,7 +118,7 @@ public:
 private:
   void listen() {
     listener_ = std::make_unique<monitor::SocketServer>(options_.listen);
-    listener_->service().addOperation("stop", [this](const nlohmann::json &) {
+    listener_->service().addOperation("end", [this](const nlohmann::json &) {
       stopAsked_.store(true);
       return nlohmann::json::object();
     });

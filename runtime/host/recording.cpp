@@ -45,9 +45,12 @@ struct Header {
 /// Before the inputs of each cycle.
 struct CycleMark {
   uint32_t task = 0;
-  uint32_t stopped = 0;
+  uint32_t flags = 0; ///< kEnded, kInStop, kTakesModeOver
   int64_t startNs = 0;
 };
+constexpr uint32_t kEnded = 1;         ///< The application had been stopped before it.
+constexpr uint32_t kInStop = 2;        ///< OperatingMode::Stop.
+constexpr uint32_t kTakesModeOver = 4; ///< TaskSet::takeModeOver().
 
 /// Before each input: its size, so that a replay notices when it goes another way.
 using InputMark = uint32_t;
@@ -96,7 +99,11 @@ public:
       : recording_(&recording), tasks_(&tasks) {}
 
   void beforePous(Ctx &ctx) override {
-    const CycleMark cycle{ctx.taskIndex, tasks_->told(ctx.taskIndex) ? 1U : 0U, ctx.cycleStartNs};
+    const uint32_t task = ctx.taskIndex;
+    const bool inStop = tasks_->modeOf(task) == task::OperatingMode::Stop;
+    const uint32_t flags = (tasks_->told(task) ? kEnded : 0U) | (inStop ? kInStop : 0U) |
+                           (tasks_->takesModeOver(task) ? kTakesModeOver : 0U);
+    const CycleMark cycle{task, flags, ctx.cycleStartNs};
     recording_->put(kCycle, bytesOf(cycle));
   }
   void afterPous(Ctx &) override {}
@@ -446,7 +453,12 @@ std::optional<RecordedCycle> Replay::nextCycle() {
                            path_, at_);
     return std::nullopt;
   }
-  return RecordedCycle{cycle.task, cycle.stopped != 0, cycle.startNs};
+  RecordedCycle recorded{.task = cycle.task, .startNs = cycle.startNs};
+  recorded.stopped = (cycle.flags & kEnded) != 0;
+  if ((cycle.flags & kInStop) != 0)
+    recorded.mode = task::OperatingMode::Stop;
+  recorded.takesModeOver = (cycle.flags & kTakesModeOver) != 0;
+  return recorded;
 }
 
 void Replay::pass(void *value, size_t size) noexcept {

@@ -71,6 +71,8 @@ private:
 struct RecordedCycle {
   uint32_t task = 0;
   bool stopped = false; ///< The application had been stopped before it.
+  task::OperatingMode mode = task::OperatingMode::Run;
+  bool takesModeOver = false; ///< TaskSet::takeModeOver().
   int64_t startNs = 0;
 };
 

@@ -53,7 +53,8 @@ Session::Session(std::unique_ptr<app::Application> application, size_t number,
     retain.file = name_ + ".retain";
   instance_.retain(retain, [this](std::string_view line) { say(line); });
   if (!own.script.empty()) {
-    script_.emplace(script::Script::fromFile(instance_.symbols(), own.script));
+    script_.emplace(script::Script::fromFile(instance_.symbols(), own.script))
+        .switchModeOf(instance_.tasks());
     scriptHook_.emplace(*script_);
   }
 }

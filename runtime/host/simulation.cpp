@@ -221,7 +221,11 @@ static task::RunResult repeat(Replay &replay, Instance &instance, Observer &obse
       break;
     if (cycle->stopped)
       tasks.stop();
-    tasks.runCycle(cycle->task, cycle->startNs, 0);
+    tasks.setMode(cycle->mode);
+    if (cycle->takesModeOver)
+      tasks.takeModeOver(cycle->task, cycle->startNs);
+    else
+      tasks.runCycle(cycle->task, cycle->startNs, 0);
     observer.afterInstant(cycle->startNs, cycle->task == tasks.fastest());
     result.timeNs = cycle->startNs;
   }
@@ -288,7 +292,8 @@ Simulation::Simulation(std::unique_ptr<app::Application> application, const SimO
   if (!options.trace.empty())
     trace_.emplace(instance_.symbols(), options.trace, options.out);
   if (!options.script.empty())
-    script_.emplace(script::Script::fromFile(instance_.symbols(), options.script));
+    script_.emplace(script::Script::fromFile(instance_.symbols(), options.script))
+        .switchModeOf(instance_.tasks());
   if (!options.replay.empty()) {
     replay_.emplace(options.replay, instance_.application(), script_ ? &*script_ : nullptr);
     instance_.setInputs(*replay_);

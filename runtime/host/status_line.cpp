@@ -34,7 +34,9 @@ size_t widthOfTerminal() {
 std::string statusText(int64_t elapsedNs, const std::vector<NamedTasks> &applications,
                        size_t width) {
   std::string text = fmt::format("running {:.1f} s", static_cast<double>(elapsedNs) * 1e-9);
-  for (const NamedTasks &one : applications)
+  for (const NamedTasks &one : applications) {
+    if (one.tasks->mode() == task::OperatingMode::Stop)
+      text += applications.size() > 1 ? fmt::format(" | {}: STOP", one.application) : " | STOP";
     for (uint32_t i = 0; i < one.tasks->count(); ++i) {
       const task::TaskFigures figures = one.tasks->statistics(i).figures();
       text += fmt::format(" | {}{}: {} cycles, {:.1f} us (at most {:.1f}), {} overrun{}",
@@ -44,6 +46,7 @@ std::string statusText(int64_t elapsedNs, const std::vector<NamedTasks> &applica
                           static_cast<double>(figures.maxRunNs) * 1e-3, figures.overruns,
                           figures.overruns == 1 ? "" : "s");
     }
+  }
   if (text.size() <= width)
     return text;
   while (width > 0 && (static_cast<unsigned char>(text[width]) & 0xC0U) == 0x80U)

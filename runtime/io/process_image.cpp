@@ -72,6 +72,7 @@ ImageHook::ImageHook(const StrideAppV1 &app, std::byte *state, uint32_t task,
   size_t largest = 0;
   for (const std::unique_ptr<IoDevice> &device : devices) {
     devices_.push_back(device.get());
+    device->held.resize(device->outputBytes);
     largest = std::max<size_t>({largest, device->inputBytes, device->outputBytes});
   }
   buffer_.resize(largest);
@@ -171,13 +172,27 @@ void ImageHook::beforePous(Ctx &ctx) {
 
 void ImageHook::afterPous(Ctx &) {
   for (const Part &part : parts_) {
-    if (!part.output)
-      continue;
-    if (stopped_ || part.device->lost.load(std::memory_order_relaxed))
-      writeSafe(part);
-    else
-      part.device->driver->write(part.deviceByte, {image(part), part.count});
+    if (part.output)
+      writePart(part);
   }
+}
+
+void ImageHook::writePart(const Part &part) noexcept {
+  const bool holds = app_->ioDevices[part.device->index].holdsInStop != 0;
+  if (stopped_ || part.device->lost.load(std::memory_order_relaxed) || (inStop_ && !holds))
+    writeSafe(part);
+  else
+    part.device->driver->write(
+        part.deviceByte,
+        {inStop_ ? part.device->held.data() + part.deviceByte : image(part), part.count});
+}
+
+/// A byte belongs to one task, also of what is held.
+void ImageHook::modeChanged(task::OperatingMode mode) {
+  inStop_ = mode == task::OperatingMode::Stop;
+  for (const Part &part : parts_)
+    if (part.output && inStop_)
+      std::copy_n(image(part), part.count, part.device->held.begin() + part.deviceByte);
 }
 
 void ImageHook::writeSafe(const Part &part) noexcept {

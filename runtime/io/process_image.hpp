@@ -28,7 +28,8 @@ struct IoDevice {
   uint32_t index = 0;   ///< Into StrideAppV1::ioDevices.
   uint32_t inputBytes = 0;
   uint32_t outputBytes = 0;
-  std::string lostText; ///< To be shown.
+  std::vector<BYTE> held; ///< Outputs as they were when STOP began.
+  std::string lostText;   ///< To be shown.
   std::atomic<bool> lost{false};
   std::atomic<uint32_t> losses{0}; ///< While it runs.
   uint32_t told = 0;               ///< Losses that were shown.
@@ -53,6 +54,9 @@ void copyWhole(BYTE *to, const BYTE *from, size_t count) noexcept;
 /// the output bytes it writes to them after. In this order lies the place for forces: they apply
 /// to the image after the copy of the inputs and before that of the outputs, in a hook that is
 /// added after this one.
+///
+/// In STOP inputs go on, and outputs do not follow the image: they have their safe values or, where
+/// IoDeviceDesc::holdsInStop says so, those that they had when STOP began. The image stays.
 class ImageHook final : public task::CycleHook {
 public:
   /// `devices` in the order of app.ioDevices; they live as long as the hook. The first task that
@@ -63,6 +67,7 @@ public:
   void beforePous(Ctx &ctx) override;
   void afterPous(Ctx &ctx) override;
   void applicationStopped() override;
+  void modeChanged(task::OperatingMode mode) override;
   void prepareRebind(const StrideAppV1 &app) override;
   void rebind(const StrideAppV1 &app, std::byte *state) noexcept override;
   std::vector<std::string> takeNews() override;
@@ -83,6 +88,7 @@ private:
   IoDeviceState &stateOf(const IoDevice &device) const;
   void watch(Ctx &ctx, IoDevice &device);
   void writeSafe(const Part &part) noexcept;
+  void writePart(const Part &part) noexcept;
 
   bool read(const Part &part) noexcept;
 
@@ -96,6 +102,7 @@ private:
   std::vector<Part> nextParts_; ///< Of the build that prepareRebind() was told of.
   std::vector<BYTE> buffer_;
   bool stopped_ = false;
+  bool inStop_ = false;
 };
 
 } // namespace stride::io

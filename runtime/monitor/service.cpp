@@ -15,10 +15,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char *kOperations[] = {"read",         "write",       "force",      "unforce",
-                                       "forces",       "list",        "subscribe",  "unsubscribe",
-                                       "tasks",        "statistics",  "state",      "record",
-                                       "record_state", "record_read", "record_stop"};
+constexpr const char *kOperations[] = {
+    "read",         "write",       "force",       "unforce",    "forces", "list",
+    "subscribe",    "unsubscribe", "tasks",       "statistics", "state",  "record",
+    "record_state", "record_read", "record_stop", "stop",       "start"};
 
 std::string lineOf(const json &message) {
   return message.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -158,6 +158,10 @@ void Service::dispatch(ClientId client, const json &id, const json &request) {
     answer(client, id, tasks(request, op == "statistics"));
   else if (op == "state")
     answer(client, id, state(request));
+  else if (op == "stop")
+    setMode(client, id, request, task::OperatingMode::Stop);
+  else if (op == "start")
+    setMode(client, id, request, task::OperatingMode::Run);
   else if (op == "record")
     answer(client, id, record(request));
   else if (op == "record_state")
@@ -257,8 +261,9 @@ void Service::pollPending(int64_t nowNs) noexcept {
     if (pending.untilNs == 0)
       pending.untilNs = nowNs + kTimeoutNs;
     const ServedApplication &application = applications_[pending.application];
-    const bool done =
-        pending.request ? pending.request->done() : application.symbols->forcesTaken();
+    const bool done = pending.request    ? pending.request->done()
+                      : pending.setsMode ? application.tasks->modeTaken()
+                                         : application.symbols->forcesTaken();
     if (!done && nowNs < pending.untilNs)
       return false;
     orGiveUp(pending.client, [&] { conclude(application, pending, done); });
@@ -272,6 +277,10 @@ void Service::conclude(const ServedApplication &application, const Pending &pend
     refuse(pending.client, pending.id,
            {"timeout", fmt::format("no cycle has done it within {} s; does the task run?",
                                    kTimeoutNs / 1'000'000'000)});
+    return;
+  }
+  if (pending.setsMode) {
+    answer(pending.client, pending.id, stateOf(application));
     return;
   }
   if (!pending.request) {

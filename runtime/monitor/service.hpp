@@ -36,7 +36,7 @@ struct ServiceError {
 /// be called from any thread; answers come from within handle() and poll().
 class Service {
 public:
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;
   static constexpr size_t kMostSubscriptions = 16; ///< Per client.
   static constexpr size_t kMostPending = 32;       ///< Per client, unanswered.
   static constexpr int64_t kShortestPeriodNs = 10'000'000;
@@ -98,7 +98,8 @@ private:
     std::shared_ptr<SymbolRequest> request; ///< null: waits for forces
     bool writes = false;
     bool literals = false;
-    int64_t untilNs = 0; ///< 0: not set yet
+    int64_t untilNs = 0;   ///< 0: not set yet
+    bool setsMode = false; ///< Waits until all tasks have taken RUN or STOP over.
   };
   struct Subscription {
     ClientId client;
@@ -129,6 +130,7 @@ private:
   void unforce(ClientId client, const Json &id, const Json &request);
   void subscribe(ClientId client, const Json &id, const Json &request);
   Json unsubscribe(ClientId client, const Json &request);
+  void setMode(ClientId client, const Json &id, const Json &request, task::OperatingMode mode);
   Json forces(const Json &request) const;
   Json list(const Json &request) const;
   Json tasks(const Json &request, bool figures) const;

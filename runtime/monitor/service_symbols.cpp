@@ -222,12 +222,26 @@ json Service::state(const json &request) const {
   return stateOf(running(number));
 }
 
+/// Answered when every task has taken it over, at once where it has been so before.
+void Service::setMode(ClientId client, const json &id, const json &request,
+                      task::OperatingMode mode) {
+  const size_t number = applicationOf(request);
+  task::TaskSet &tasks = *running(number).tasks;
+  if (tasks.stopped())
+    throw ServiceError{"gone", "the application is ending, or an exception has stopped it"};
+  tasks.setMode(mode);
+  Pending pending{client, id, number, nullptr, false, false, 0};
+  pending.setsMode = true;
+  wait(std::move(pending));
+}
+
 json Service::stateOf(const ServedApplication &application) {
   const StrideAppV1 &app = application.symbols->symbols().app();
   json result = {{"name", application.name},
                  {"build", fmt::format("{:016x}", app.buildHash)},
                  {"time", secondsOf(application.nowNs())},
-                 {"state", application.tasks->stopped() ? "stopped" : "running"}};
+                 {"state", application.tasks->stopped() ? "stopped" : "running"},
+                 {"mode", task::nameOf(application.tasks->mode())}};
   if (const std::optional<task::Fault> fault = application.tasks->fault())
     result["fault"] = task::describe(*fault);
   return result;

@@ -66,6 +66,8 @@ bool Script::passes(const Thread &thread, const Step &step, int64_t timeNs,
   case Does::Write:
   case Does::Force:
   case Does::Release:
+  case Does::Stop:
+  case Does::Start:
     return true;
   }
   return true;
@@ -79,6 +81,8 @@ void Script::act(Step &step, int64_t timeNs, std::byte *state) noexcept {
     forces_->set(step.forced, step.value);
   } else if (step.does == Does::Release) {
     forces_->release(step.forced);
+  } else if ((step.does == Does::Stop || step.does == Does::Start) && tasks_ != nullptr) {
+    tasks_->setMode(step.does == Does::Stop ? task::OperatingMode::Stop : task::OperatingMode::Run);
   }
 }
 

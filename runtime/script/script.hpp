@@ -4,6 +4,7 @@
 
 #include "runtime/app/condition.hpp"
 #include "runtime/task/cycle_hook.hpp"
+#include "runtime/task/task_set.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -66,6 +67,9 @@ public:
   const std::string &text() const { return text_; }
   const std::string &file() const { return file_; }
 
+  /// Whose mode `stop` and `start` switch; they live longer. Without it these do nothing.
+  void switchModeOf(task::TaskSet &tasks) { tasks_ = &tasks; }
+
   /// Does what is due at that time. Neither allocates nor locks.
   void step(int64_t timeNs, std::byte *state) noexcept;
   /// The next time for which something waits; the largest number without one.
@@ -84,7 +88,17 @@ private:
     uint32_t line = 0;
     uint32_t column = 0;
   };
-  enum class Does : uint8_t { Write, Force, Release, WaitAt, WaitFor, WaitUntil, WaitUntilNot };
+  enum class Does : uint8_t {
+    Write,
+    Force,
+    Release,
+    Stop,
+    Start,
+    WaitAt,
+    WaitFor,
+    WaitUntil,
+    WaitUntilNot
+  };
   struct Step {
     Does does = Does::Write;
     Position at;
@@ -111,6 +125,7 @@ private:
   std::string text_;
   std::vector<Thread> threads_;
   std::unique_ptr<FixedForces> forces_;
+  task::TaskSet *tasks_ = nullptr;
 };
 
 } // namespace stride::script

@@ -22,8 +22,8 @@ namespace {
 constexpr size_t kMostMistakes = 20;
 constexpr const char *kForms =
     "a line is 'at TIME: …', 'when CONDITION: …', 'whenever CONDITION: …', 'wait TIME', 'wait "
-    "until CONDITION', 'NAME := VALUE', 'force NAME := VALUE', 'release NAME', 'sequence NAME' or "
-    "'end_sequence'";
+    "until CONDITION', 'NAME := VALUE', 'force NAME := VALUE', 'release NAME', 'stop', 'start', "
+    "'sequence NAME' or 'end_sequence'";
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool isWordCharacter(char c) {
@@ -283,6 +283,14 @@ private:
       step.does = Does::Force;
     else if (line.takeKeyword("release"))
       step.does = Does::Release;
+    else if (line.takeKeyword("stop"))
+      step.does = Does::Stop;
+    else if (line.takeKeyword("start"))
+      step.does = Does::Start;
+    if (step.does == Does::Stop || step.does == Does::Start) {
+      thread.steps.push_back(std::move(step));
+      return;
+    }
     const size_t nameAt = line.at();
     const std::string_view path = line.path();
     if (step.does == Does::Write && !line.take(":=")) {

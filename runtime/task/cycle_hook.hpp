@@ -4,6 +4,7 @@
 
 #include "runtime/app/abi.h"
 #include "runtime/iec/ctx.h"
+#include "runtime/task/operating_mode.hpp"
 
 #include <cstddef>
 #include <string>
@@ -23,6 +24,9 @@ public:
   virtual void beforePous(Ctx &ctx) = 0;
   virtual void afterPous(Ctx &ctx) = 0;
 
+  /// The PLC has gone into STOP or back to RUN; before beforePous() of the first cycle of the task
+  /// in that mode. In STOP the hooks are called without the POUs between them.
+  virtual void modeChanged(OperatingMode mode) { (void)mode; }
   /// The application has stopped, with an exception or because the run ends; from now on the hooks
   /// are called without the POUs between them, until all are at rest. Brings its part of the
   /// machine to a safe stop.

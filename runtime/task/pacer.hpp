@@ -53,6 +53,8 @@ public:
   virtual ~TaskRaiser() = default;
 
   virtual void raise(uint32_t task) noexcept = 0;
+  /// TaskSet::setMode() has been called: tasks that do not run soon by themselves take it over.
+  virtual void modeChanged() noexcept {}
 };
 
 } // namespace stride::task

@@ -163,7 +163,7 @@ void RealScheduler::lookAtEvents() {
 }
 
 void RealScheduler::lookOnce() {
-  if (tasks_->stopped())
+  if (tasks_->stopped() || tasks_->mode() == OperatingMode::Stop)
     return;
   for (const std::unique_ptr<Worker> &worker : workers_) {
     const TaskDesc &desc = tasks_->desc(worker->task);
@@ -181,7 +181,14 @@ void RealScheduler::lookOnce() {
 void RealScheduler::runCyclic(Worker &worker) {
   const int64_t interval = tasks_->desc(worker.task).intervalNs;
   const bool isLong = interval > TaskSet::kLongIntervalNs;
-  for (int64_t planned = 0; sleepUntil(planned, isLong);) {
+  for (int64_t planned = 0;;) {
+    const Woken woken = sleepUntil(worker.task, planned);
+    if (woken == Woken::End)
+      return;
+    if (woken == Woken::TakeModeOver) {
+      takeModeOver(worker);
+      continue;
+    }
     const int64_t start = std::min(planned, nowNs()); // a stop does not wait for the plan
     cycle(worker, start);
     planned = start + (isLong && tasks_->stopped() ? TaskSet::kLongIntervalNs : interval);
@@ -194,7 +201,8 @@ void RealScheduler::runCyclic(Worker &worker) {
 }
 
 void RealScheduler::runFreewheeling(Worker &worker) {
-  for (int64_t planned = 0; sleepUntil(planned); planned = nowNs() + kFreewheelingPauseNs)
+  for (int64_t planned = 0; sleepUntil(worker.task, planned) != Woken::End;
+       planned = nowNs() + kFreewheelingPauseNs)
     cycle(worker, planned);
 }
 
@@ -203,7 +211,12 @@ void RealScheduler::runOnEvent(Worker &worker) {
   const bool isStatus = tasks_->desc(worker.task).kind == TaskKind::Status;
   const int64_t interval = tasks_->desc(worker.task).intervalNs;
   int64_t next = !isStatus && interval > 0 ? 0 : kNever;
-  while (waitForEvent(worker, next)) {
+  for (Woken woken = waitForEvent(worker, next); woken != Woken::End;
+       woken = waitForEvent(worker, next)) {
+    if (woken == Woken::TakeModeOver) {
+      takeModeOver(worker);
+      continue;
+    }
     if (isStatus && !worker.level.load() && !tasks_->stopped()) {
       next = kNever; // it became FALSE before the next cycle
       continue;
@@ -222,22 +235,40 @@ void RealScheduler::runOnEvent(Worker &worker) {
   }
 }
 
-/// Until the event is raised or the time has come; false: the end has come.
-bool RealScheduler::waitForEvent(Worker &worker, int64_t untilNs) {
+/// Until the event is raised or the time has come.
+RealScheduler::Woken RealScheduler::waitForEvent(Worker &worker, int64_t untilNs) {
   for (;;) {
     if (ending())
-      return false;
+      return Woken::End;
+    const bool stopped = tasks_->stopped();
+    if (!stopped && tasks_->modeOf(worker.task) != tasks_->mode())
+      return Woken::TakeModeOver;
     const int64_t now = nowNs();
     if (untilNs <= now)
-      return true;
+      return Woken::Due;
     const ::timespec until = toTimespec(originNs_ + std::min(untilNs, now + kLongestSleepNs));
     if (::sem_clockwait(&worker.raised, CLOCK_MONOTONIC, &until) == 0) {
-      worker.pending.store(false);
-      return !ending();
+      // Also for a new mode, without an event.
+      if (worker.pending.exchange(false) || tasks_->stopped())
+        return ending() ? Woken::End : Woken::Due;
+      continue;
     }
     if (tasks_->stopped() && untilNs == kNever)
-      return !ending(); // its hooks go on without events
+      return ending() ? Woken::End : Woken::Due; // its hooks go on without events
   }
+}
+
+/// Also from a cycle.
+void RealScheduler::modeChanged() noexcept {
+  for (const std::unique_ptr<Worker> &worker : workers_)
+    if (!tasks_->takesModeSoon(worker->task))
+      ::sem_post(&worker->raised);
+}
+
+void RealScheduler::takeModeOver(const Worker &worker) {
+  gate_.enter(worker.task);
+  tasks_->takeModeOver(worker.task, nowNs());
+  gate_.leave(worker.task);
 }
 
 void RealScheduler::runPaced(Worker &worker, Pacer &pacer) {
@@ -281,15 +312,20 @@ void RealScheduler::raise(uint32_t task) noexcept {
     ::sem_post(&worker.raised);
 }
 
-/// `orStop`: at once when the application stops, if it has not before. False: the end has come.
-bool RealScheduler::sleepUntil(int64_t timeNs, bool orStop) const {
+/// A task of a long interval is also woken when the application stops, if it has not before, and by
+/// another mode.
+RealScheduler::Woken RealScheduler::sleepUntil(uint32_t task, int64_t timeNs) const {
+  const bool isLong = !tasks_->takesModeSoon(task);
   const bool wasStopped = tasks_->stopped();
   for (;;) {
     if (ending())
-      return false;
+      return Woken::End;
     const int64_t now = nowNs();
-    if (now >= timeNs || (orStop && !wasStopped && tasks_->stopped()))
-      return true;
+    const bool stopped = tasks_->stopped();
+    if (now >= timeNs || (isLong && !wasStopped && stopped))
+      return Woken::Due;
+    if (isLong && !stopped && tasks_->modeOf(task) != tasks_->mode())
+      return Woken::TakeModeOver;
     const ::timespec until = toTimespec(originNs_ + std::min(timeNs, now + kLongestSleepNs));
     while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
     }

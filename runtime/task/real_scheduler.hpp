@@ -30,8 +30,8 @@ struct RealOptions {
 /// A cyclic task whose cycle is not over at its next planned start skips what it has missed, so
 /// that it stays on the grid of its interval (an overrun each). A freewheeling task pauses
 /// kFreewheelingPauseNs after each cycle. Events are looked at after every cycle of every task; see
-/// VirtualScheduler for what they do, with the actual time for the virtual one. The thread of a
-/// task with a pacer waits in that.
+/// VirtualScheduler for what they and STOP do, with the actual time for the virtual one. The thread
+/// of a task with a pacer waits in that.
 class RealScheduler final : private TaskRaiser {
 public:
   static constexpr int64_t kFreewheelingPauseNs = 1'000'000;
@@ -82,8 +82,12 @@ private:
   void runPaced(Worker &worker, Pacer &pacer);
   std::optional<Wake> waitPaced(uint32_t task, Pacer &pacer, int64_t afterNs, int64_t limitNs);
   void raise(uint32_t task) noexcept override;
-  bool waitForEvent(Worker &worker, int64_t untilNs);
-  bool sleepUntil(int64_t timeNs, bool orStop = false) const;
+  void modeChanged() noexcept override;
+  /// What a wait has ended with.
+  enum class Woken : uint8_t { Due, TakeModeOver, End };
+  Woken waitForEvent(Worker &worker, int64_t untilNs);
+  Woken sleepUntil(uint32_t task, int64_t timeNs) const;
+  void takeModeOver(const Worker &worker);
   bool ending() const { return ending_.load(std::memory_order_acquire); }
 
   TaskSet *tasks_;

@@ -77,6 +77,8 @@ TaskSet::TaskSet(const StrideAppV1 &app, std::byte *state, const HostApi &host, 
     task->ctx.taskIndex = i;
     task->ctx.host = &host_;
     task->ctx.firstCycle = 1;
+    task->comesAround = desc.kind == TaskKind::Cyclic || desc.kind == TaskKind::Freewheeling;
+    task->isShort = desc.intervalNs <= kLongIntervalNs;
     tasks_.push_back(std::move(task));
     order_.push_back(i);
   }
@@ -104,6 +106,14 @@ StException TaskSet::watchdogIn(const StException &loop, const Task &task,
 }
 
 void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexcept {
+  cycle(index, startNs, latencyNs, false);
+}
+
+void TaskSet::takeModeOver(uint32_t index, int64_t startNs) noexcept {
+  cycle(index, startNs, 0, true);
+}
+
+void TaskSet::cycle(uint32_t index, int64_t startNs, int64_t latencyNs, bool hooksAlone) noexcept {
   Task &task = *tasks_[index];
   Ctx &ctx = task.ctx;
   noteCycle(app_->tasks[index].name, ctx.cycle);
@@ -114,22 +124,14 @@ void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexc
   // Asked once: hooks see in told() what the cycle does.
   if (stopped())
     tellHooks(task);
-  const bool runs = !task.told;
+  takeMode(task);
+  task.takesOver = hooksAlone;
+  const bool inRun = task.mode.load(std::memory_order_relaxed) == OperatingMode::Run;
+  const bool runs = !task.told && !hooksAlone;
   for (CycleHook *hook : task.hooks)
     hook->beforePous(ctx);
-  if (runs) {
-    const TaskDesc &desc = app_->tasks[index];
-    if (const std::optional<StException> exception = guardedCall(desc.run, ctx)) {
-      const bool late = limit_ == LoopLimit::Clock && desc.watchdogNs > 0 &&
-                        exception->code() == ExceptionCode::EndlessLoop;
-      const bool again = repeats(index, startNs) && exception->code() == ExceptionCode::EndlessLoop;
-      fail(again  ? repeated_->exception
-           : late ? watchdogIn(*exception, task, desc)
-                  : *exception,
-           index, ctx.cycle, startNs);
-      tellHooks(task);
-    }
-  }
+  if (const TaskDesc &desc = app_->tasks[index]; runs)
+    runPous(index, inRun ? desc.run : desc.runInStop, startNs);
   for (auto hook = task.hooks.rbegin(); hook != task.hooks.rend(); ++hook)
     (*hook)->afterPous(ctx);
   if (task.told)
@@ -141,8 +143,49 @@ void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexc
   if (limit_ == LoopLimit::Clock)
     watch(index, run);
   noteCycle(nullptr, 0);
-  ctx.firstCycle = 0;
+  if (runs && inRun)
+    ctx.firstCycle = 0;
   ++ctx.cycle;
+}
+
+/// `run`: null for none.
+void TaskSet::runPous(uint32_t index, void (*run)(Ctx *), int64_t startNs) noexcept {
+  Task &task = *tasks_[index];
+  if (run == nullptr)
+    return;
+  const std::optional<StException> exception = guardedCall(run, task.ctx);
+  if (!exception)
+    return;
+  const TaskDesc &desc = app_->tasks[index];
+  const bool endless = exception->code() == ExceptionCode::EndlessLoop;
+  const bool late = limit_ == LoopLimit::Clock && desc.watchdogNs > 0 && endless;
+  const bool again = repeats(index, startNs) && endless;
+  fail(again  ? repeated_->exception
+       : late ? watchdogIn(*exception, task, desc)
+              : *exception,
+       index, task.ctx.cycle, startNs);
+  tellHooks(task);
+}
+
+void TaskSet::setMode(OperatingMode mode) noexcept {
+  if (mode_.exchange(mode, std::memory_order_acq_rel) != mode && raiser_ != nullptr)
+    raiser_->modeChanged();
+}
+
+bool TaskSet::modeTaken() const noexcept {
+  return std::all_of(tasks_.begin(), tasks_.end(), [this](const auto &task) {
+    return task->mode.load(std::memory_order_acquire) == mode();
+  });
+}
+
+/// An application that has ended has no mode any more.
+void TaskSet::takeMode(Task &task) noexcept {
+  const OperatingMode asked = mode();
+  if (task.told || task.mode.load(std::memory_order_relaxed) == asked)
+    return;
+  for (CycleHook *hook : task.hooks)
+    hook->modeChanged(asked);
+  task.mode.store(asked, std::memory_order_release);
 }
 
 void TaskSet::addOverruns(uint32_t task, uint64_t count) noexcept {

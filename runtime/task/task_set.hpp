@@ -30,6 +30,9 @@ enum class LoopLimit : uint8_t {
 ///
 /// When a cycle ends with an exception (or breaks its watchdog), or stop() is called, no POU runs
 /// any more. The hooks are told in their own task, and go on until all are at rest.
+///
+/// In OperatingMode::Stop no POU runs either, but nothing ends: setMode() leads back. Each task
+/// takes a mode over at the start of its next cycle.
 class TaskSet {
 public:
   static constexpr int64_t kDefaultLoopBudget = 1'000'000'000;
@@ -90,6 +93,26 @@ public:
   /// start; `latencyNs` how late that is. Never throws, allocates or locks (but to note a fault).
   void runCycle(uint32_t task, int64_t startNs, int64_t latencyNs) noexcept;
   void addOverruns(uint32_t task, uint64_t count) noexcept;
+  /// A cycle of the hooks alone, for a task that would not run soon: it takes the mode over.
+  void takeModeOver(uint32_t task, int64_t startNs) noexcept;
+
+  /// RUN or STOP, for all tasks. From any thread, also from a task's cycle: neither allocates,
+  /// locks nor waits.
+  void setMode(OperatingMode mode) noexcept;
+  OperatingMode mode() const noexcept { return mode_.load(std::memory_order_acquire); }
+  /// The one that the task has taken over.
+  OperatingMode modeOf(uint32_t task) const noexcept {
+    return tasks_[task]->mode.load(std::memory_order_acquire);
+  }
+  /// All tasks have taken the mode over.
+  bool modeTaken() const noexcept;
+  /// It runs soon by itself, and takes a mode over then.
+  bool takesModeSoon(uint32_t task) const noexcept {
+    const Task &one = *tasks_[task];
+    return one.isShort && (one.comesAround || one.pacer != nullptr);
+  }
+  /// The task's present cycle is one of takeModeOver(). For the task's own hooks.
+  bool takesModeOver(uint32_t task) const noexcept { return tasks_[task]->takesOver; }
 
   /// Evaluates the event of an event or status task. `nowNs`: for the message of a fault.
   bool eventLevel(uint32_t task, int64_t nowNs) noexcept;
@@ -129,6 +152,10 @@ private:
     uint64_t looks = 0;      ///< Fault::looks of this cycle.
     bool told = false;       ///< The hooks know that the application has stopped.
     std::atomic<bool> rest{false};
+    bool comesAround = false; ///< Cyclic or freewheeling; online changes keep that.
+    bool isShort = false;     ///< Its interval is at most kLongIntervalNs.
+    std::atomic<OperatingMode> mode{OperatingMode::Run}; ///< As the hooks know it.
+    bool takesOver = false;                              ///< This cycle is the hooks' alone.
   };
 
   static int64_t refill(Ctx *ctx);
@@ -138,6 +165,9 @@ private:
                                 const TaskDesc &desc) noexcept;
   void fail(const StException &exception, uint32_t task, uint64_t cycle, int64_t timeNs) noexcept;
   void tellHooks(Task &task) noexcept;
+  void takeMode(Task &task) noexcept;
+  void cycle(uint32_t index, int64_t startNs, int64_t latencyNs, bool hooksAlone) noexcept;
+  void runPous(uint32_t index, void (*run)(Ctx *), int64_t startNs) noexcept;
   void watch(uint32_t index, int64_t runNs) noexcept;
 
   const StrideAppV1 *app_;
@@ -151,6 +181,7 @@ private:
   std::optional<Fault> repeated_;
   TaskRaiser *raiser_ = nullptr;
   std::atomic<bool> stopped_{false};
+  std::atomic<OperatingMode> mode_{OperatingMode::Run};
   mutable std::mutex faultMutex_;
   std::optional<Fault> fault_;
   CycleLog log_;

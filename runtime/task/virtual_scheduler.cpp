@@ -62,10 +62,13 @@ RunResult VirtualScheduler::runUntil(int64_t endNs) {
       break;
     if (observer_ != nullptr && stoppedNs_ < 0)
       observer_->beforeInstant(now);
+    takeModeOver(now);
     lookAtEvents(now);
     bool fastest = false;
-    while (runDueTask(now, fastest))
+    while (runDueTask(now, fastest)) {
+      takeModeOver(now);
       lookAtEvents(now);
+    }
     if (tasks_->stopped() && stoppedNs_ < 0)
       stopAt(now);
     if (observer_ != nullptr)
@@ -84,7 +87,7 @@ void VirtualScheduler::stopAt(int64_t nowNs) {
 }
 
 void VirtualScheduler::lookAtEvents(int64_t nowNs) {
-  if (!tasks_->hasEvents() || tasks_->stopped())
+  if (!tasks_->hasEvents() || tasks_->stopped() || tasks_->mode() == OperatingMode::Stop)
     return;
   for (const uint32_t i : tasks_->order()) {
     const TaskDesc &desc = tasks_->desc(i);
@@ -107,6 +110,16 @@ void VirtualScheduler::lookAtEvents(int64_t nowNs) {
     } else if (desc.intervalNs > 0 && !level && due.atNs == kNever) {
       due.atNs = nowNs + desc.intervalNs;
     }
+  }
+}
+
+/// Tasks that wait for something else than a short interval do not wait with that.
+void VirtualScheduler::takeModeOver(int64_t nowNs) {
+  for (const uint32_t i : tasks_->order()) {
+    const Due &due = due_[i];
+    const bool soon = due.atNs <= nowNs || (due.atNs != kNever && tasks_->takesModeSoon(i));
+    if (stoppedNs_ < 0 && !soon && tasks_->modeOf(i) != tasks_->mode())
+      tasks_->takeModeOver(i, nowNs);
   }
 }
 

@@ -48,6 +48,10 @@ struct RunResult {
 /// A task with a pacer runs when that says, or without it after TaskSet::paceLimitNs. A raised task
 /// is due as after an edge of its event.
 ///
+/// At the instant at which RUN becomes STOP, or STOP RUN, also tasks that are not due soon take
+/// that over (TaskSet::takeModeOver). In STOP events are not looked at; one that has become TRUE
+/// meanwhile starts its task at the start.
+///
 /// After an exception the hooks go on until all are at rest, at most TaskSet::kStopLimitNs.
 class VirtualScheduler final : private TaskRaiser {
 public:
@@ -77,6 +81,7 @@ private:
   void stopAt(int64_t nowNs);
   void lookAtEvents(int64_t nowNs);
   bool runDueTask(int64_t nowNs, bool &fastest);
+  void takeModeOver(int64_t nowNs);
   int64_t nextOf(uint32_t task, int64_t nowNs) const;
   int64_t waitFor(uint32_t task, Pacer &pacer, int64_t afterNs) const;
   void raise(uint32_t task) noexcept override;

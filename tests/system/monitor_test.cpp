@@ -56,7 +56,7 @@ END_CONFIGURATION
                          "i=$((i+1)); done\n";
     for (const std::string &command : commands)
       script += "$HOST ctl unix:plc.sock " + command + "\n";
-    return shell(script + "$HOST ctl unix:plc.sock stop; wait $run; echo ended with $?");
+    return shell(script + "$HOST ctl unix:plc.sock end; wait $run; echo ended with $?");
   }
 
   ScratchDirectory scratch_;
@@ -134,6 +134,38 @@ TEST_F(Monitor, WhatIsWrittenIsRecordedAndReplayed) {
       "--out sim.csv && cmp run.csv sim.csv && grep -c ',51,7,1$' sim.csv > /dev/null && tail "
       "-n 1 sim.csv | cut -d , -f 4");
   EXPECT_EQ(replay.out, "8\n") << replay.err;
+}
+
+/// The POUs rest, the monitor goes on; what was stopped and started is an input of the recording.
+TEST_F(Monitor, StopsAndStarts) {
+  const ProcessResult result = served(
+      {"stop", "stop", "state",
+       "read Main.n > first; $HOST ctl unix:plc.sock read Main.n > second; "
+       "cmp first second && echo rests",
+       "write Main.n=1000", "force %IX0.3=TRUE", "start",
+       "record Main.n --rows 1 --trigger Main.n --threshold 1010 --edge high > rows; echo on",
+       "read Main.seen", "stop", "change; echo changed $?", "state", "start", "state"},
+      "--trace Main.n,Main.copy,Main.seen --out run.csv");
+  EXPECT_THAT(result.out,
+              ContainsRegex("^app: in STOP at [0-9.]+ s\napp: in STOP at [0-9.]+ s\n"
+                            "app: in STOP at [0-9.]+ s\nrests\napp: running at [0-9.]+ s\non\n"
+                            "Main.seen = TRUE\napp: in STOP at [0-9.]+ s\n.*changed 0\n"
+                            "app: in STOP at [0-9.]+ s\napp: running at [0-9.]+ s\n"
+                            "app: running at [0-9.]+ s\nended with 0\n$"))
+      << result.err;
+  EXPECT_THAT(result.err, StartsWith("note: online change done")); // in STOP
+}
+
+TEST_F(Monitor, StopsAndStartsAreRecordedAndReplayed) {
+  const ProcessResult result = served(
+      {"stop", "write Main.fixed=7", "start", "stop", "start", "record Main.n --rows 3 > rows"},
+      "--record in.rec --trace Main.n,Main.copy,Main.fixed --out run.csv");
+  EXPECT_EQ(result.err, "");
+  const ProcessResult replay =
+      shell("$HOST sim app.so --replay in.rec --trace Main.n,Main.copy,Main.fixed --out sim.csv && "
+            "cmp run.csv sim.csv && tail -n 1 sim.csv | cut -d , -f 4; "
+            "cut -d , -f 2 sim.csv | uniq -d | wc -l");
+  EXPECT_EQ(replay.out, "7\n3\n") << "two stops, the end; " << replay.err;
 }
 
 /// Scripts, traces and clients are served where only events start tasks.

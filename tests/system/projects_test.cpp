@@ -221,7 +221,7 @@ TEST_F(Projects, UnitsAndStatesOfTheProjectAreInPicturesAndInTheMonitor) {
       shell("\"$STRIDE\" run p --listen unix:s --for 60s --quiet & run=$!\n"
             "i=0; while [ ! -S s ] && [ $i -lt 400 ]; do sleep 0.05; i=$((i+1)); done\n"
             "\"$STRIDE\" ctl unix:s read Drive.fSetVelocity Line.fSetPosition Main.Target; "
-            "\"$STRIDE\" ctl unix:s stop; "
+            "\"$STRIDE\" ctl unix:s end; "
             "wait $run\n");
   EXPECT_THAT(read.out, ContainsRegex("^Drive.fSetVelocity = .* \\[mm/s\\]\nLine.fSetPosition = "
                                       "0.0 \\[deg\\]\nMain.Target = [0-9.]+\n"));

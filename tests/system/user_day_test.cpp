@@ -105,7 +105,7 @@ TEST_F(UserDay, CtlFindsTheRunOfItsProject) {
             "sleep 0.05; i=$((i+1)); done\n"
             "(cd plant/parts && \"$STRIDE\" ctl write Main.n=-100000 && "
             "\"$STRIDE\" ctl watch Main.n --period 20ms --count 2)\n"
-            "\"$STRIDE\" ctl ./plant stop; wait $run; echo ended with $?\n");
+            "\"$STRIDE\" ctl ./plant end; wait $run; echo ended with $?\n");
   EXPECT_THAT(result.err,
               ContainsRegex("^stride: no run of `.*` listens: start it with `stride run "
                             "--listen`, or name its socket: stride ctl unix:PATH\n$"));
@@ -137,7 +137,7 @@ TEST_F(UserDay, ARecordingOutlivesOnlineChanges) {
             "gone --rows 1000000 --out cut.csv & cut=$!\nsleep 0.2\n" +
             change("  extra : DINT := 7;", "") + change("  extra : STRING;", "") +
             change("  extra : STRING;", "--accept-losses") +
-            "wait $cut\n\"$STRIDE\" ctl unix:s stop; wait $run\n");
+            "wait $cut\n\"$STRIDE\" ctl unix:s end; wait $run\n");
   EXPECT_EQ(result.exitCode, 0) << result.err;
   const std::vector<std::string> kept = rowsOf(readFile(scratch_.path() / "kept.csv"));
   ASSERT_EQ(kept.size(), 900U);

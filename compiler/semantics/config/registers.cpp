@@ -2,6 +2,7 @@
 
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/locations.hpp"
+#include "compiler/syntax/attributes.hpp"
 #include "runtime/numeric/csy/register_map.hpp"
 
 #include <algorithm>
@@ -96,7 +97,8 @@ void reserveModule(Context &c, uint32_t module) {
   constexpr csy::RegisterArea kAreas[] = {csy::RegisterArea::Input, csy::RegisterArea::Output,
                                           csy::RegisterArea::Memory};
   for (size_t i = 0; i < 3; ++i) {
-    const uint32_t end = csy::startOfModule(kAreas[i], module) +
+    const uint32_t more = kAreas[i] == csy::RegisterArea::Output ? csy::kStopOutputs : 0;
+    const uint32_t end = csy::startOfModule(kAreas[i], module) + more +
                          (csy::kModuleChannel + 1) * csy::bytesOfChannel(kAreas[i]);
     c.program.image.bytes[i] = std::max(c.program.image.bytes[i], end);
   }
@@ -255,6 +257,7 @@ void placeChannelFields(Context &c, std::vector<SlotPlace> &slots) {
     if (!target || isError(variable->type))
       continue;
     const std::string type = typeName(variable->type);
+    const bool inStop = hasAttribute(variable->decl->attributes, AttributeId::CsyStop);
     for (unsigned kind = 1; kind <= csy::kModule; kind *= 2) {
       if (type != csy::nameOfKind(static_cast<uint8_t>(kind)))
         continue;
@@ -262,6 +265,8 @@ void placeChannelFields(Context &c, std::vector<SlotPlace> &slots) {
       for (size_t i = 0; csy::registerAt(static_cast<uint8_t>(kind), i, found); ++i)
         if (slot.variable->name.text == found.symbol) {
           slot.at = locationOf(target->channel, found.row->area, csy::placeOf(found));
+          if (inStop && found.row->area == csy::RegisterArea::Output)
+            slot.at.byte += csy::kStopOutputs;
           slot.placed = true;
         }
     }

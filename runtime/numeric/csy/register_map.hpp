@@ -88,7 +88,7 @@ constexpr uint32_t startOfModule(RegisterArea area, uint32_t module) noexcept {
   case RegisterArea::Input:
     return 0x10000 + module * 0x400;
   case RegisterArea::Output:
-    return 0x10000 + module * 0x200;
+    return 0x10000 + module * 0x400;
   case RegisterArea::Memory:
     break;
   }
@@ -99,6 +99,10 @@ constexpr uint32_t bytesOfChannel(RegisterArea area) noexcept {
          : area == RegisterArea::Output ? kOutputBytes
                                         : kMemoryBytes;
 }
+
+/// What a module takes for its outputs while the PLC is in STOP, so many bytes after the outputs
+/// themselves, which programs keep.
+inline constexpr uint32_t kStopOutputs = 0x200;
 
 struct ImagePlace {
   uint32_t byte;

@@ -95,6 +95,56 @@ TEST_F(Image, StopGivesSafeValuesByTask) {
       << "the image shows what the device has";
 }
 
+/// Inputs go on; the image keeps what the programs have written, and they find it there again.
+TEST_F(Image, FallbackInStop) {
+  state_.outputs = {1, 2, 3, 4, 5, 6, 7, 8};
+  hooks_[0]->afterPous(ctx_);
+  hooks_[1]->afterPous(ctx_);
+  for (const auto &hook : hooks_) {
+    hook->modeChanged(task::OperatingMode::Stop);
+    hook->afterPous(ctx_);
+  }
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_EQ(state_.inputs, (std::array<BYTE, 8>{0x80, 0x81, 0x82, 0x83, 0, 0, 0, 0}));
+  EXPECT_EQ(state_.outputs, (std::array<BYTE, 8>{1, 2, 3, 4, 5, 6, 7, 8}));
+  hooks_[1]->modeChanged(task::OperatingMode::Run);
+  hooks_[1]->afterPous(ctx_);
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_EQ(state_.inputs, (std::array<BYTE, 8>{0x80, 2, 3, 4, 0, 0, 0, 0})) << "by task";
+  hooks_[0]->modeChanged(task::OperatingMode::Run);
+  hooks_[0]->afterPous(ctx_);
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_EQ(state_.inputs, (std::array<BYTE, 8>{1, 2, 3, 4, 0, 0, 0, 0}));
+}
+
+TEST_F(Image, HoldInStop) {
+  device_.holdsInStop = 1;
+  state_.outputs = {1, 2, 3, 4, 5, 6, 7, 8};
+  hooks_[0]->afterPous(ctx_);
+  hooks_[1]->afterPous(ctx_);
+  hooks_[0]->modeChanged(task::OperatingMode::Stop);
+  hooks_[1]->modeChanged(task::OperatingMode::Stop);
+  state_.outputs = {9, 9, 9, 9, 9, 9, 9, 9}; // by a force
+  hooks_[0]->afterPous(ctx_);
+  hooks_[1]->afterPous(ctx_);
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_EQ(state_.inputs, (std::array<BYTE, 8>{1, 2, 3, 4, 0, 0, 0, 0}));
+  state_.device.bFault = 1; // a lost device gets its safe values, also when it comes back
+  hooks_[1]->beforePous(ctx_);
+  hooks_[1]->afterPous(ctx_);
+  state_.device.bFault = 0;
+  hooks_[1]->beforePous(ctx_);
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_EQ(state_.inputs, (std::array<BYTE, 8>{1, 0x81, 0x82, 0x83, 0, 0, 0, 0}));
+  hooks_[1]->afterPous(ctx_);
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_EQ(state_.inputs, (std::array<BYTE, 8>{1, 2, 3, 4, 0, 0, 0, 0})) << "held again";
+  hooks_[1]->applicationStopped();
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_EQ(state_.inputs, (std::array<BYTE, 8>{1, 0x81, 0x82, 0x83, 0, 0, 0, 0}))
+      << "the end lets go";
+}
+
 TEST_F(Image, LostDevice) {
   state_.outputs = {1, 2, 3, 4, 5, 6, 7, 8};
   hooks_[0]->afterPous(ctx_);

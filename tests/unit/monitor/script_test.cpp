@@ -55,6 +55,29 @@ TEST_F(Scripts, AtATime) {
   EXPECT_THAT(s.remarks(), IsEmpty());
 }
 
+TEST_F(Scripts, StopAndStart) {
+  stride::task::TaskSet tasks(application.description(), application.state(),
+                              stride::task::hostApi(), stride::task::LoopLimit::Budget);
+  using stride::task::OperatingMode;
+  Script s = script("at T#20ms: STOP; total := 4 // both\n"
+                    "wait T#30ms; start\n"
+                    "at T#25ms: PLC_PRG.divisor := 3\n");
+  s.switchModeOf(tasks);
+  step(s, 10);
+  EXPECT_EQ(tasks.mode(), OperatingMode::Run);
+  step(s, 20);
+  EXPECT_EQ(tasks.mode(), OperatingMode::Stop);
+  EXPECT_EQ(read("total"), "4");
+  step(s, 39); // other steps do not start it
+  EXPECT_EQ(read("PLC_PRG.divisor"), "3");
+  EXPECT_EQ(tasks.mode(), OperatingMode::Stop);
+  step(s, 40);
+  EXPECT_EQ(tasks.mode(), OperatingMode::Run);
+  EXPECT_THAT(s.remarks(), IsEmpty());
+  EXPECT_THAT(mistakes("stop now\n"), HasSubstr("test.script:1:6: 'now' was not expected there"));
+  EXPECT_THAT(mistakes("stop := 1\n"), HasSubstr("stop")) << "a variable, which is missing";
+}
+
 TEST_F(Scripts, WhenOnceWheneverAgain) {
   Script s = script("when PLC_PRG.count > 2: total := 1\n"
                     "whenever PLC_PRG.flag: PLC_PRG.divisor := 7\n");
@@ -167,7 +190,8 @@ TEST_F(Scripts, EveryMistakeWithItsPlace) {
       "error: test.script:5:14: a value is assigned with ':='\n"
       "error: test.script:6:1: '/*\xC3\xA4*/' is not understood; a line is 'at TIME: …', 'when "
       "CONDITION: …', 'whenever CONDITION: …', 'wait TIME', 'wait until CONDITION', 'NAME := "
-      "VALUE', 'force NAME := VALUE', 'release NAME', 'sequence NAME' or 'end_sequence'");
+      "VALUE', 'force NAME := VALUE', 'release NAME', 'stop', 'start', 'sequence NAME' or "
+      "'end_sequence'");
 }
 
 TEST_F(Scripts, MoreMistakes) {

@@ -17,7 +17,7 @@ protected:
           lines[id].push_back(json::parse(line));
         }) {
     service.attach(0, {"handmade", &server, &tasks, [this] { return timeNs; }});
-    service.addOperation("stop", [this](const json &) {
+    service.addOperation("end", [this](const json &) {
       stopped = true;
       return json::object();
     });
@@ -54,7 +54,7 @@ protected:
 };
 
 TEST_F(Protocol, Hello) {
-  EXPECT_EQ(service.hello(), R"({"applications":["handmade"],"hello":"stride","version":1})");
+  EXPECT_EQ(service.hello(), R"({"applications":["handmade"],"hello":"stride","version":2})");
 }
 
 TEST_F(Protocol, ReadsEveryKindOfValue) {
@@ -163,8 +163,47 @@ TEST_F(Protocol, Records) {
 }
 
 TEST_F(Protocol, AddedOperations) {
-  result(R"({"op":"stop"})");
+  result(R"({"op":"end"})");
   EXPECT_TRUE(stopped);
+}
+
+/// Answered when every task has taken it over.
+TEST_F(Protocol, StopAndStart) {
+  const auto others = [this] {
+    for (uint32_t task = 1; task < tasks.count(); ++task)
+      tasks.runCycle(task, timeNs, 0);
+    service.poll(now += 1'000'000);
+  };
+  EXPECT_EQ(result(R"({"op":"state"})")["mode"], "RUN");
+  const json count = result(R"({"op":"read","names":["PLC_PRG.count"]})")["values"];
+  service.handle(1, R"({"id":7,"op":"stop"})");
+  run();
+  service.poll(now += 1'000'000);
+  ASSERT_GT(tasks.count(), 1U);
+  EXPECT_TRUE(last().is_null()) << "the other tasks have not";
+  others();
+  const json stopped = last();
+  EXPECT_EQ(stopped["id"], 7);
+  EXPECT_EQ(stopped["result"]["mode"], "STOP");
+  EXPECT_EQ(stopped["result"]["state"], "running");
+  run();
+  const json later = result(R"({"op":"read","names":["PLC_PRG.count"]})")["values"];
+  EXPECT_EQ(later[0]["value"].get<int>(), count[0]["value"].get<int>());
+  EXPECT_EQ(result(R"({"op":"stop"})")["mode"], "STOP") << "again: at once";
+  result(R"({"op":"write","values":[{"name":"PLC_PRG.count","value":40}]})");
+  service.handle(1, R"({"op":"start"})");
+  others();
+  run();
+  service.poll(now += 1'000'000);
+  EXPECT_EQ(last()["result"]["mode"], "RUN");
+  EXPECT_EQ(result(R"({"op":"read","names":["PLC_PRG.count"]})")["values"][0]["value"], 42)
+      << "on from what was written in STOP";
+  service.handle(1, R"({"op":"stop"})");
+  service.poll(now += 1);
+  service.poll(now += Service::kTimeoutNs + 1);
+  EXPECT_EQ(last()["error"]["code"], "timeout");
+  tasks.stop();
+  EXPECT_THAT(refused(R"({"op":"start"})"), HasSubstr("gone"));
 }
 
 TEST_F(Protocol, BadRequests) {
