@@ -4,6 +4,7 @@
 #include "compiler/import/plcopen_context.hpp"
 #include "compiler/source/st_scan.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -175,16 +176,57 @@ std::string membersOf(Context &context, const Node &node, const std::string &own
   return text;
 }
 
-/// Flags of CODESYS that a chart uses: the reader of ST finds no variables of these names.
-void reportFlags(Context &context, const Node &pou, const std::string &object) {
-  std::string used;
-  for (const Node &each : children(child(extra(pou, "SFCSettings"), "Flags")))
-    if (isTrue(each, "Use"))
-      used += fmt::format("{}SFC{}", used.empty() ? "" : ", ", localName(each));
-  if (!used.empty())
-    context.changed(
-        extra(pou, "SFCSettings"), object,
-        fmt::format("its chart uses the flags {}; declare them where they are used", used));
+/// The flags that a chart can use here, by the names that CODESYS's settings have for them.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kFlags = {
+    {{"Init", "BOOL"},
+     {"Reset", "BOOL"},
+     {"Error", "BOOL"},
+     {"EnableLimit", "BOOL"},
+     {"QuitError", "BOOL"},
+     {"Pause", "BOOL"},
+     {"Trans", "BOOL"},
+     {"Tip", "BOOL"},
+     {"TipMode", "BOOL"},
+     {"ErrorStep", "STRING"},
+     {"ErrorPOU", "STRING"},
+     {"CurrentStep", "STRING"}}};
+
+/// Declares the flags that CODESYS's settings of a chart declare without a word in the text.
+std::string flagSection(Context &context, const Node &pou, const std::string &object,
+                        std::string_view declaration) {
+  std::string section;
+  std::string declared;
+  std::string others;
+  const auto add = [](std::string &list, const std::string &name) {
+    list += (list.empty() ? "" : ", ") + name;
+  };
+  for (const Node &each : children(child(extra(pou, "SFCSettings"), "Flags"))) {
+    if (!isTrue(each, "Use"))
+      continue;
+    const std::string name = fmt::format("SFC{}", localName(each));
+    const std::vector<StWord> words = wordsOf(declaration);
+    const auto *const row = std::ranges::find(
+        kFlags, localName(each), &std::pair<std::string_view, std::string_view>::first);
+    const bool written = std::ranges::any_of(words, [&](const StWord &word) {
+      return sameName(declaration.substr(word.begin, word.end - word.begin), name);
+    });
+    if (row == kFlags.end() || !isTrue(each, "Declare")) {
+      add(others, name);
+    } else if (!written) {
+      section += fmt::format("  {} : {};\n", name, row->second);
+      add(declared, name);
+    }
+  }
+  const Node settings = extra(pou, "SFCSettings");
+  if (!declared.empty())
+    context.changed(settings, object,
+                    fmt::format("flags that its chart uses are declared: {}", declared));
+  if (!others.empty())
+    context.changed(settings, object,
+                    fmt::format("its chart uses the flags {}, which it does not declare or which "
+                                "are not known here: they have no effect",
+                                others));
+  return section.empty() ? section : fmt::format("VAR\n{}END_VAR\n", section);
 }
 
 struct PouKind {
@@ -230,8 +272,8 @@ void readPou(Context &context, const Node &node) {
                                  "InterfaceAsPlainText"});
   context.leaveOutUnknownExtras(
       node, {"Method", "Property", "InterfaceAsPlainText", "SFCSettings", "BuildProperties"});
-  reportFlags(context, node, name);
-  const std::string declaration = declarationOf(context, node, keyword, name, name);
+  std::string declaration = declarationOf(context, node, keyword, name, name);
+  declaration += flagSection(context, node, name, declaration);
   std::string members;
   const std::string body = bodiesOf(context, node, node, name, members);
   members += actionsOf(context, node, name) + membersOf(context, node, name);
