@@ -310,6 +310,15 @@ bool SclText::namesOwn(size_t at) const {
   return tokens_[at].kind == SclKind::Word && sign != "." && !input;
 }
 
+/// Where the rest of the block has the name (in lower case); looked for once for all names.
+const std::vector<size_t> &SclText::usesOf(const std::string &name) {
+  if (uses_.empty())
+    for (size_t i = at_; i < limit_; ++i)
+      if (tokens_[i].kind == SclKind::Local || tokens_[i].kind == SclKind::Word)
+        uses_[stride::common::lowerCase(asIdentifier(sclName(tokens_[i])))].push_back(i);
+  return uses_[name];
+}
+
 /// A view of smaller parts: each is a bit or a byte of the variable, as long as the block names
 /// them one by one.
 bool SclText::partView(const std::string &name, const std::string &of, std::string_view as,
@@ -319,11 +328,9 @@ bool SclText::partView(const std::string &name, const std::string &of, std::stri
     return false;
   const std::string key = stride::common::lowerCase(name);
   const std::span<const SclToken> tokens = std::span(tokens_).first(limit_);
-  for (size_t i = at_; i < tokens.size(); ++i) {
-    if (stride::common::lowerCase(asIdentifier(sclName(tokens[i]))) != key || !namesOwn(i))
-      continue;
+  for (const size_t i : usesOf(key)) {
     size_t end = 0;
-    if (sclViewPartAt(*parts, tokens, i, end) == nullptr)
+    if (i >= at_ && namesOwn(i) && sclViewPartAt(*parts, tokens, i, end) == nullptr)
       return false;
   }
   std::string type(parts->type);

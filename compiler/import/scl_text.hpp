@@ -67,6 +67,7 @@ private:
   [[nodiscard]] std::string date(const SclToken &token);
   bool view(std::string &out, const std::string &name, size_t nameAt, const std::string &owner);
   [[nodiscard]] bool namesOwn(size_t at) const;
+  [[nodiscard]] const std::vector<size_t> &usesOf(const std::string &name);
   bool partView(const std::string &name, const std::string &of, std::string_view as,
                 std::string_view structure, std::string_view seen);
   [[nodiscard]] bool isView(const SclToken &token, std::string_view before) const;
@@ -96,7 +97,8 @@ private:
     std::string type;     ///< as which type
     SclViewParts parts{}; ///< of it; none: the view has its size
   };
-  std::map<std::string, View> views_;        ///< by their names in lower case
+  std::map<std::string, View> views_;               ///< by their names in lower case
+  std::map<std::string, std::vector<size_t>> uses_; ///< tokens by names in lower case
   std::map<std::string, std::string> types_; ///< of the block's variables, by names in lower case
   std::map<std::string, std::string> dates_; ///< values of dates in statements, by their names
   bool closing_ = false;                     ///< a `)` is due before the next `;`

@@ -163,7 +163,12 @@ void Scanner::badCharacters(size_t begin) {
                                       place_ - begin > 1 && !isForeign(text_[begin])
                                           ? "these characters have no meaning here"
                                           : "this character has no meaning here");
-  if (text_[begin] == '?')
+  // `a ?= b`, and `ST? a` of an instruction list
+  const bool stores = begin >= 2 && isWord(text_.substr(begin - 2, 2), "st") &&
+                      (begin == 2 || !isWordChar(text_[begin - 3]));
+  if (text_[begin] == '?' && (at(begin + 1) == '=' || stores))
+    d.help("an assignment attempt is `__QUERYINTERFACE(value, target)` here, or `__QUERYPOINTER`");
+  else if (text_[begin] == '?')
     d.help("choose between two values with `SEL(condition, ifFalse, ifTrue)`");
   if (badCharacters_ == kMaxBadCharacters)
     d.note("further characters of this kind in the file are not reported");
