@@ -113,6 +113,29 @@ TEST_P(CycleTrapExample, NorWhileVariablesAreForced) {
 INSTANTIATE_TEST_SUITE_P(Example, CycleTrapExample,
                          ::testing::Values(STRIDE_SOURCE_DIR "/examples/PLCopenSingle"));
 
+using CycleTrapInStop = CycleTrap;
+
+TEST_P(CycleTrapInStop, NorWhileThePlcStopsAndStarts) {
+  ASSERT_TRUE(build(GetParam()));
+  writeFile(scratch_.path() / "a.script", "at T#100ms: stop\nat T#200ms: start\n");
+  const std::string host = STRIDE_BINARY_DIR "/tests/cycle_trap_host";
+  const ProcessResult result = runProcess(
+      {"sh", "-c",
+       host +
+           " run app.so --for 60s --listen unix:s --quiet --script a.script & p=$!; sleep 0.4\n" +
+           host + " ctl unix:s stop; " + host + " ctl unix:s start; " + host +
+           " ctl unix:s stop; " + host + " ctl unix:s end; wait $p"},
+      scratch_.path());
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.err, Not(HasSubstr("TRAP")));
+  EXPECT_THAT(result.out, HasSubstr(": in STOP at "));
+}
+
+INSTANTIATE_TEST_SUITE_P(Projects, CycleTrapInStop,
+                         ::testing::Values(STRIDE_SOURCE_DIR "/tests/golden/projects/csy_stop",
+                                           STRIDE_SOURCE_DIR "/tests/golden/projects/plc_stop_axes",
+                                           STRIDE_SOURCE_DIR "/tests/golden/projects/plc_stop_io"));
+
 /// Virtual time waits for the disk; the real clock never does.
 TEST(CycleTrapOfFiles, NothingIsAllocatedOrLockedInACycleThatWorksWithThem) {
   const ScratchDirectory scratch;

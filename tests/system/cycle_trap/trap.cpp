@@ -1,6 +1,6 @@
 // Linked into a stride-host of its own: allocations, locks and waits inside a cycle end the program
-// with the calls that led there. TaskSet::runCycle is wrapped by the linker (--wrap), malloc and
-// the others by defining them here.
+// with the calls that led there. TaskSet::runCycle and takeModeOver are wrapped by the linker
+// (--wrap), malloc and the others by defining them here.
 #include "runtime/host/host_main.hpp"
 
 #include <dlfcn.h>
@@ -156,6 +156,16 @@ void __wrap__ZN6stride4task7TaskSet8runCycleEjll(stride::task::TaskSet *self, ui
     ::pthread_mutex_lock(&mutex);
   }
   __real__ZN6stride4task7TaskSet8runCycleEjll(self, task, startNs, latencyNs);
+  insideCycle = false;
+}
+
+// void stride::task::TaskSet::takeModeOver(uint32_t, int64_t) noexcept
+void __real__ZN6stride4task7TaskSet12takeModeOverEjl(stride::task::TaskSet *self, uint32_t task,
+                                                     int64_t startNs);
+void __wrap__ZN6stride4task7TaskSet12takeModeOverEjl(stride::task::TaskSet *self, uint32_t task,
+                                                     int64_t startNs) {
+  insideCycle = true;
+  __real__ZN6stride4task7TaskSet12takeModeOverEjl(self, task, startNs);
   insideCycle = false;
 }
 
