@@ -16,6 +16,9 @@ namespace stc {
 struct GeneratedFile {
   std::string path;
   std::string text;
+  /// Each statement in it runs at most once in a call of a program: the C++ compiler need not take
+  /// much time for it.
+  bool runsOnce = false;
 };
 
 /// How a task is started.

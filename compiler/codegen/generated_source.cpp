@@ -366,7 +366,7 @@ GeneratedFile GeneratedSource::inlined(const PouSymbol *own) const {
     file.fromGenerated(path);
   }
   lines(file, "} // namespace st::" + std::string(run.names.space(run.own)) + "\n#endif\n");
-  return {path, file.take()};
+  return {path, file.take(), false};
 }
 
 GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) const {
@@ -392,7 +392,7 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
   }
   file << "} // namespace st::" << run.names.space(run.own);
   file.endLine();
-  return {path_, file.take()};
+  return {path_, file.take(), false};
 }
 
 } // namespace stc::codegen

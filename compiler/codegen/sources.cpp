@@ -114,6 +114,12 @@ bool isWritten(const PouSymbol *p, const GeneratedSource &source) {
                      [](const PouSymbol *m) { return hasStatics(m) || hasBody(m); });
 }
 
+bool runsOnce(Context &context, const PouSymbol *p) {
+  return context.repetition.runsOnce(p) &&
+         std::all_of(p->methods.begin(), p->methods.end(),
+                     [&](const PouSymbol *m) { return context.repetition.runsOnce(m); });
+}
+
 void pou(Context &context, const PouSymbol *p, std::vector<GeneratedFile> &files) {
   GeneratedSource source(context, p, context.names.source(p));
   if (!p->isFunction())
@@ -136,6 +142,7 @@ void pou(Context &context, const PouSymbol *p, std::vector<GeneratedFile> &files
       source.functionBody(m);
   }
   files.push_back(source.finish(p, p->name.text));
+  files.back().runsOnce = runsOnce(context, p);
 }
 
 } // namespace

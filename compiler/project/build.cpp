@@ -141,7 +141,8 @@ private:
       return false;
     }
     toolchain_.installation = *found;
-    toolchain_.compileFlags = compileFlags(*found, options_.debug);
+    toolchain_.compileFlags = compileFlags(*found, options_.debug, false);
+    toolchain_.onceFlags = compileFlags(*found, options_.debug, true);
     return findCompiler();
   }
 
@@ -191,8 +192,9 @@ private:
 
   // Everything a translation unit depends on besides the tool chain: its text and the generated
   // headers it includes.
-  std::string keyOf(const GeneratedFile &unit) const {
+  std::string keyOf(const GeneratedFile &unit, bool runsOnce) const {
     ContentHash hash = base_;
+    hash.add(uint64_t{runsOnce});
     std::vector<const GeneratedFile *> pending = {&unit};
     std::unordered_set<const GeneratedFile *> seen = {&unit};
     while (!pending.empty()) {
@@ -210,7 +212,7 @@ private:
   std::vector<Unit> units() const {
     std::vector<Unit> units;
     for (const TranslationUnit &unit : units_)
-      units.push_back({&unit, keyOf(*byPath_.at(unit.path)),
+      units.push_back({&unit, keyOf(*byPath_.at(unit.path), unit.runsOnce),
                        work_->path() / fmt::format("{}.o", units.size())});
     return units;
   }
@@ -282,7 +284,9 @@ private:
     if (!toolchain_.launcher.empty())
       command.push_back(toolchain_.launcher.string());
     command.push_back(toolchain_.compiler.string());
-    command.insert(command.end(), toolchain_.compileFlags.begin(), toolchain_.compileFlags.end());
+    const std::vector<std::string> &flags =
+        unit.source->runsOnce ? toolchain_.onceFlags : toolchain_.compileFlags;
+    command.insert(command.end(), flags.begin(), flags.end());
     const std::string include = toolchain_.installation.include.string();
     // The same bytes wherever sources, cache and Stride lie.
     command.insert(command.end(),

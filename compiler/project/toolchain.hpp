@@ -20,6 +20,7 @@ struct Toolchain {
   std::filesystem::path launcher; ///< what starts it, absolute; empty: nothing
   /// All but include folders, mapped paths, input and output.
   std::vector<std::string> compileFlags;
+  std::vector<std::string> onceFlags; ///< the same for units that run once in a cycle
 };
 
 /// Path of a program as execvp finds it, absolute; or empty.
@@ -29,8 +30,10 @@ struct Toolchain {
 /// installed, which has been reported.
 [[nodiscard]] bool findLauncher(Launcher launcher, Toolchain &toolchain, Diagnostics &diagnostics);
 
-/// The flags that generated code is compiled with; `debug`: quick to compile and for the debugger.
-[[nodiscard]] std::vector<std::string> compileFlags(const Installation &installation, bool debug);
+/// The flags that generated code is compiled with; `debug`: quick to compile and for the debugger;
+/// `runsOnce`: as TranslationUnit has it.
+[[nodiscard]] std::vector<std::string> compileFlags(const Installation &installation, bool debug,
+                                                    bool runsOnce);
 
 /// What identifies the tool chain: the compiler with its parts (its stages, assembler, linker), the
 /// flags, the environment that changes what it does, Stride's headers and all headers of the system

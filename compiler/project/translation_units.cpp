@@ -30,6 +30,9 @@ size_t weightOf(const GeneratedFile &file) {
   return isApplication(file) ? file.text.size() / kTablesPerStatement : file.text.size();
 }
 
+// The application object has tables, and calls each program once.
+bool runsOnce(const GeneratedFile &file) { return file.runsOnce || isApplication(file); }
+
 struct Source {
   std::string hash; ///< of the path, as bits
   const GeneratedFile *file;
@@ -64,14 +67,15 @@ public:
     if (weight <= kMostBytes) {
       add("all", all);
     } else {
-      std::vector<Source> sources;
+      std::vector<Source> sources[2]; // by runsOnce
       for (const GeneratedFile *file : all) {
         if (isApplication(*file) || weightOf(*file) > kMostBytes)
-          units_.push_back({file->path, titleOf(file->path)});
+          units_.push_back({file->path, titleOf(file->path), runsOnce(*file)});
         else
-          sources.push_back({bitsOf(file->path), file});
+          sources[file->runsOnce ? 1 : 0].push_back({bitsOf(file->path), file});
       }
-      divide(sources, 0);
+      divide(sources[0], 0, "");
+      divide(sources[1], 0, "once");
     }
     for (GeneratedFile &file : added_)
       files_.push_back(std::move(file));
@@ -85,7 +89,7 @@ private:
   }
 
   /// Sources whose hashes have the first `depth` bits in common.
-  void divide(const std::vector<Source> &sources, size_t depth) {
+  void divide(const std::vector<Source> &sources, size_t depth, const std::string &prefix) {
     if (sources.empty())
       return;
     size_t weight = 0;
@@ -95,19 +99,20 @@ private:
       std::vector<const GeneratedFile *> unit;
       for (const Source &source : sources)
         unit.push_back(source.file);
-      add(sources.front().hash.substr(0, depth), unit);
+      add(prefix + sources.front().hash.substr(0, depth), unit);
       return;
     }
     std::vector<Source> halves[2];
     for (const Source &source : sources)
       halves[source.hash[depth] == '1' ? 1 : 0].push_back(source);
-    divide(halves[0], depth + 1);
-    divide(halves[1], depth + 1);
+    divide(halves[0], depth + 1, prefix);
+    divide(halves[1], depth + 1, prefix);
   }
 
   void add(std::string_view name, const std::vector<const GeneratedFile *> &sources) {
     if (sources.size() == 1) {
-      units_.push_back({sources.front()->path, titleOf(sources.front()->path)});
+      units_.push_back(
+          {sources.front()->path, titleOf(sources.front()->path), runsOnce(*sources.front())});
       return;
     }
     // Their small bodies are here anyway, and need not be given to callers once more.
@@ -117,9 +122,12 @@ private:
         text += fmt::format("#define {}\n", besideMacro(file->path));
     for (const GeneratedFile *file : sources)
       text += fmt::format("#include \"{}\"\n", file->path);
-    GeneratedFile unit{fmt::format("{}{}.cpp", kFolder, name), std::move(text)};
-    units_.push_back({unit.path, fmt::format("{} and {} more", titleOf(sources.front()->path),
-                                             sources.size() - 1)});
+    GeneratedFile unit{fmt::format("{}{}.cpp", kFolder, name), std::move(text), false};
+    units_.push_back(
+        {unit.path,
+         fmt::format("{} and {} more", titleOf(sources.front()->path), sources.size() - 1),
+         std::all_of(sources.begin(), sources.end(),
+                     [](const GeneratedFile *file) { return runsOnce(*file); })});
     added_.push_back(std::move(unit));
   }
 

@@ -11,8 +11,9 @@ namespace stc {
 
 /// What one call of the C++ compiler compiles.
 struct TranslationUnit {
-  std::string path;  ///< of its source
-  std::string title; ///< for progress
+  std::string path;      ///< of its source
+  std::string title;     ///< for progress
+  bool runsOnce = false; ///< as all of its sources do
 };
 
 /// Divides the sources among `files` into translation units, since a call of the compiler costs as
@@ -22,8 +23,8 @@ struct TranslationUnit {
 /// A small project is one unit. In others a source goes where the hash of its path says, to the
 /// half of the sources with its next bit, until what goes there is little enough: so a source that
 /// is added, removed or grows moves others only within its unit, and units do not depend on the
-/// order of the files. What is large is a unit of its own, and so are app.cpp and build.cpp, which
-/// change when others do not.
+/// order of the files. Sources that run once in a cycle are apart from others. What is large is a
+/// unit of its own, and so are app.cpp and build.cpp, which change when others do not.
 [[nodiscard]] std::vector<TranslationUnit> divideIntoUnits(std::vector<GeneratedFile> &files);
 
 } // namespace stc

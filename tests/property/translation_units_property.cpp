@@ -19,7 +19,7 @@ using stc::TranslationUnit;
 constexpr size_t kMost = 24576;
 
 GeneratedFile source(const std::string &name, size_t bytes) {
-  return {"user/" + name + ".cpp", std::string(bytes, 'x')};
+  return {"user/" + name + ".cpp", std::string(bytes, 'x'), false};
 }
 
 /// What a unit includes, in its order; itself where it is a source.
@@ -72,6 +72,31 @@ TEST(TranslationUnits, SmallProjectIsOneWithTheApplicationLast) {
             (std::vector<std::string>{"user/Ant.cpp", "user/Zebra.cpp", "app.cpp", "build.cpp"}));
   EXPECT_EQ(units[0].title, "Ant and 3 more");
   EXPECT_EQ(files.size(), 6U);
+}
+
+TEST(TranslationUnits, WhatRunsOnceIsApartInLargeProjects) {
+  for (const bool large : {false, true}) {
+    std::vector<GeneratedFile> files = {{"app.cpp", "t", false},
+                                        source("Hot", large ? 20000 : 200),
+                                        source("Loop", 3000),
+                                        source("Cold", 3000),
+                                        source("Ice", 4000)};
+    files[3].runsOnce = files[4].runsOnce = true;
+    const std::vector<TranslationUnit> units = divideIntoUnits(files);
+    std::map<std::string, bool> once; // by source
+    for (const TranslationUnit &unit : units)
+      for (const std::string &path : sourcesOf(unit, files))
+        once[path] = unit.runsOnce;
+    EXPECT_EQ(once, (std::map<std::string, bool>{{"app.cpp", large},
+                                                 {"user/Cold.cpp", large},
+                                                 {"user/Hot.cpp", false},
+                                                 {"user/Ice.cpp", large},
+                                                 {"user/Loop.cpp", false}}));
+    EXPECT_EQ(units.size(), large ? 3U : 1U); // of them, two of each kind together
+  }
+  std::vector<GeneratedFile> files = {{"app.cpp", "t", false}, source("Cold", 3000)};
+  files[1].runsOnce = true;
+  EXPECT_TRUE(divideIntoUnits(files).at(0).runsOnce);
 }
 
 TEST(TranslationUnits, OneByteMoreAndTheApplicationIsApart) {

@@ -100,6 +100,31 @@ TEST(CodegenChoices, BodiesAreInlinedWhereTheyRunOften) {
   EXPECT_TRUE(takesBody(up("IF i > 0 THEN Main(); END_IF"), "x := F(3); Up();"));
 }
 
+TEST(CodegenChoices, SaysWhichSourcesRunOnce) {
+  const auto files = generate({{"Main.st", R"(
+FUNCTION Often : INT Often := 3; END_FUNCTION
+FUNCTION Once : INT Once := 4; END_FUNCTION
+FUNCTION Loops : INT VAR i : INT; END_VAR FOR i := 0 TO 3 DO Loops := Loops + Often(); END_FOR END_FUNCTION
+FUNCTION_BLOCK Acts VAR n : INT; END_VAR
+ACTION Plain: n := Once(); END_ACTION
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Turns VAR n : INT; END_VAR
+ACTION Round: WHILE n < 3 DO n := n + 1; END_WHILE END_ACTION
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Base END_FUNCTION_BLOCK
+FUNCTION_BLOCK Derived EXTENDS Base END_FUNCTION_BLOCK
+PROGRAM Main VAR x : INT; a : Acts; t : Turns; d : Derived; END_VAR
+x := Loops() + Once(); a.Plain(); t.Round(); d();
+END_PROGRAM
+)"}});
+  std::string once;
+  for (const GeneratedFile &file : files)
+    if (file.runsOnce)
+      once += file.path + ' ';
+  // What extends another block may be called by whom nobody knows.
+  EXPECT_EQ(once, "user/Once.cpp user/Acts.cpp user/Main.cpp ");
+}
+
 TEST(CodegenChoices, TinyBodiesAreInlinedEverywhere) {
   const auto main = [](const std::string &body) {
     return mainOf("FUNCTION F : INT VAR_INPUT n : INT; END_VAR " + body +
