@@ -286,6 +286,21 @@ TEST_F(Run, ARecordingIsReplayedBitForBit) {
   EXPECT_THAT(damaged.err, HasSubstr("is damaged"));
 }
 
+/// Also cycles in which a task that waits for an event takes STOP over.
+TEST_F(Run, AReplayStopsAndStartsAsTheRunDid) {
+  const std::string trace =
+      " --script p/stop.script --trace Main.n,Main.speedBack,Main.valveBack,OnEvent.starts,"
+      "OnEvent.lampBack --out ";
+  const ProcessResult result = shell(
+      "cp -r " STRIDE_SOURCE_DIR "/tests/golden/projects/plc_stop_io p && "
+      "\"$STRIDE\" build p -o a.so && "
+      "\"$HOST\" run a.so --for 300ms --record a.rec --quiet" +
+      trace + "run.csv && \"$HOST\" sim a.so --replay a.rec" + trace +
+      "sim.csv && cmp run.csv sim.csv && cut -d , -f 3,4,6 sim.csv | grep -c '^-2,10[0-9],0$'");
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, ContainsRegex("^[1-9][0-9]*\n$")) << "fallback, hold, fallback at once";
+}
+
 TEST_F(Run, AReplayNeedsTheScriptOfItsRun) {
   build("a", kCounter);
   write("s.script", "at T#20ms: PLC_PRG.n := 1000000\n");
