@@ -174,14 +174,14 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
     ends.from[k] = ends.to[k] = first ? state.motion.axes[k] : state.end[k];
   findMoreEnds(group, request, ends);
   const bool carried = group::isCarried(state.motion) && canRide(request);
+  if (leadsTool(request) && arm.outcome == Outcome::Done && (first || !carried))
+    if (const int16_t wrong = whyNotFrom(arm.arm, ends.from); wrong != 0)
+      return wrong;
   group::Leg leg;
   if (const int16_t wrong = carried ? carriedLeg(group, arm, request, moreAxesOf(ends), leg)
                                     : legOf(group, arm, request, ends, leg);
       wrong != 0)
     return wrong;
-  if (group::leadsTool(leg) && (first || !carried))
-    if (const int16_t wrong = whyNotFrom(arm.arm, ends.from); wrong != 0)
-      return wrong;
   if (!areWithinLimits(arm, ends, kArmAxes, arm.arm.more) ||
       (!carried && !areWithinLimits(arm, ends, 0, arm.arm.joints)))
     return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;

@@ -43,6 +43,43 @@ int16_t stepTo(const group::Arm &arm, const group::Leg &leg, double way, double 
   return 0;
 }
 
+/// How far axes are apart at most, in units of what counts as the same place.
+double distanceOf(const group::Arm &arm, const double (&a)[kAxes], const double (&b)[kAxes]) {
+  double most = 0.0;
+  for (int32_t k = 0; k < arm.joints; ++k)
+    most = exact::larger(most, exact::fabs(a[k] - b[k]) / nearness(arm, k));
+  return most;
+}
+
+/// Whether axes jump between two places of a leg, from the first of which they are known: what they
+/// go does not become less in ever smaller parts. It is looked for where they go furthest.
+bool jumpBetween(const group::Arm &arm, const group::Leg &leg, double low, double high,
+                 const double (&axes)[kAxes]) {
+  constexpr int32_t kHalves = 24;
+  constexpr double kFar = 10.0; // arms that are stretched turn quickly, too
+  double begin[kAxes];
+  __builtin_memcpy(begin, axes, sizeof begin);
+  double apart = kFar + 1.0;
+  for (int32_t i = 0; i < kHalves && apart > kFar; ++i) {
+    const double middle = low + 0.5 * (high - low);
+    double half[kAxes];
+    double end[kAxes];
+    __builtin_memcpy(half, begin, sizeof half);
+    if (stepTo(arm, leg, middle, half) != 0)
+      return false; // why it does not go on is said elsewhere
+    __builtin_memcpy(end, half, sizeof end);
+    if (stepTo(arm, leg, high, end) != 0)
+      return false;
+    const double first = distanceOf(arm, begin, half);
+    const double second = distanceOf(arm, half, end);
+    apart = exact::larger(first, second);
+    (first >= second ? high : low) = middle;
+    if (first < second)
+      __builtin_memcpy(begin, half, sizeof begin);
+  }
+  return apart > kFar;
+}
+
 } // namespace
 
 bool reaches(const group::Arm &arm, const double *axes, const Vector<double> &place) {
@@ -79,11 +116,25 @@ int16_t followLeg(const group::Arm &arm, const group::Leg &leg, int32_t parts, E
   const group::Arm follows = standing(arm, ends.from);
   for (int32_t k = 0; k < kArmAxes; ++k)
     ends.to[k] = ends.from[k];
-  for (int32_t i = 1; i <= parts; ++i)
-    if (const int16_t wrong =
-            stepTo(follows, leg, i == parts ? leg.length : leg.length * i / parts, ends.to);
-        wrong != 0)
+  // Where nothing decides an angle at the start, it may have to be another one at once.
+  constexpr double kFirst = 1e-3;
+  constexpr double kFar = 20.0; // [°], [u]
+  double low = 0.0;
+  for (int32_t i = 0; i <= parts; ++i) {
+    double before[kAxes];
+    __builtin_memcpy(before, ends.to, sizeof before);
+    double high = i == parts ? leg.length : leg.length * i / parts;
+    if (i == 0)
+      high = kFirst * leg.length / parts;
+    if (const int16_t wrong = stepTo(follows, leg, high, ends.to); wrong != 0)
       return wrong;
+    bool far = i == 0;
+    for (int32_t k = 0; k < arm.joints; ++k)
+      far = far || exact::fabs(ends.to[k] - before[k]) > kFar;
+    if (far && jumpBetween(follows, leg, low, high, before))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_SINGULAR_PATH;
+    low = high;
+  }
   return 0;
 }
 
@@ -93,7 +144,10 @@ int16_t settleLine(const group::Arm &arm, const group::Leg &leg, Ends &ends) {
   if (leg.kind == group::LegKind::Axes || !(leg.length > 0.0))
     return 0;
   Ends followed = ends;
-  if (followLeg(arm, leg, kParts, followed) != 0)
+  const int16_t wrong = followLeg(arm, leg, kParts, followed);
+  if (wrong == error::SMC_ERROR__SMC_AXIS_GROUP_SINGULAR_PATH)
+    return wrong;
+  if (wrong != 0)
     return 0; // why it does not go on is said where the path is looked at
   for (int32_t k = 0; k < arm.joints; ++k) {
     const double apart = followed.to[k] - ends.to[k];

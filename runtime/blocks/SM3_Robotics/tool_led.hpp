@@ -21,7 +21,8 @@ int16_t axesFor(const group::Arm &arm, const kinematics::Frame<double> &pose,
 int16_t whyNotFrom(const group::Arm &arm, const double (&axes)[kAxes]);
 
 /// The axes at the end of a leg, from ends.from on. It is looked at in `parts`: an axis may turn
-/// far along it, and the tool has to be on it everywhere. An SMC_ERROR.
+/// far along it, and the tool has to be on it everywhere. An axis that would jump in a singular
+/// pose is an error, too. An SMC_ERROR.
 int16_t followLeg(const group::Arm &arm, const group::Leg &leg, int32_t parts, Ends &ends);
 
 /// Sees to it that ends.to is where the axes come to at the end of a line: whole turns may be

@@ -117,7 +117,7 @@ struct ArmRrr {
       return Outcome::Unreachable;
     const Scalar way = posture.backwards ? -rootOf(inFront) : rootOf(inFront);
     // The first axis turns (way, -d3) to (x, y).
-    const bool above = valueOf(x) == 0 && valueOf(y) == 0;
+    const bool above = isOrigin(x, y, reach());
     joints[0] = above ? Scalar(reference[0])
                       : nearTo(reference[0], angleOf(y * way + x * d3, x * way - y * d3));
     Scalar angle[2];
@@ -179,7 +179,7 @@ struct Palletiser {
                   Scalar *joints) const {
     const Scalar &x = pose.place(0);
     const Scalar &y = pose.place(1);
-    const bool above = valueOf(x) == 0 && valueOf(y) == 0;
+    const bool above = isOrigin(x, y, reach());
     const Scalar side(posture.backwards ? -1.0 : 1.0);
     const Scalar way = side * rootOf(x * x + y * y);
     joints[0] = above ? Scalar(reference[0]) : nearTo(reference[0], angleOf(side * y, side * x));

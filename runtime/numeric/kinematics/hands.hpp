@@ -81,11 +81,11 @@ struct Wrist2 {
     const Scalar side(posture.hand ? -1.0 : 1.0);
     const Scalar &x = turn(0, 2);
     const Scalar &y = turn(1, 2);
-    const bool upright = valueOf(x) == 0 && valueOf(y) == 0;
+    const bool upright = isOrigin(x, y, 1.0);
     const Scalar ahead = side * x;
     const Scalar aside = side * y;
     joints[0] = upright ? Scalar(reference[0]) : nearTo(reference[0], angleOf(aside, ahead));
-    const TurnOf<Scalar> yaw = turnTowards(aside, ahead, joints[0]);
+    const TurnOf<Scalar> yaw = upright ? turnBy(joints[0]) : turnTowards(aside, ahead, joints[0]);
     joints[1] = nearTo(reference[1], angleOf(x * yaw.c + y * yaw.s, turn(2, 2)));
   }
 };
@@ -112,11 +112,11 @@ struct Wrist3 : RigidTool {
     const double side = posture.hand ? -1.0 : 1.0;
     const Scalar &x = turn(0, 2);
     const Scalar &y = turn(1, 2);
-    const bool inLine = valueOf(x) == 0 && valueOf(y) == 0;
+    const bool inLine = isOrigin(x, y, 1.0);
     const Scalar ahead = side * x;
     const Scalar aside = side * y;
     joints[0] = inLine ? Scalar(reference[0]) : nearTo(reference[0], angleOf(aside, ahead));
-    const TurnOf<Scalar> first = turnTowards(aside, ahead, joints[0]);
+    const TurnOf<Scalar> first = inLine ? turnBy(joints[0]) : turnTowards(aside, ahead, joints[0]);
     joints[1] = nearTo(reference[1], angleOf(-(x * first.c + y * first.s), turn(2, 2)));
     // What the first joint leaves of the tool's own axes at right angles to the middle one.
     joints[2] = nearTo(reference[2], angleOf(turn(1, 0) * first.c - turn(0, 0) * first.s,
@@ -231,11 +231,11 @@ struct FiveAxisTable {
     const Scalar side(posture.hand ? -1.0 : 1.0);
     const Scalar &x = pose.turn(0, 2);
     const Scalar &y = pose.turn(1, 2);
-    const bool upright = valueOf(x) == 0 && valueOf(y) == 0;
+    const bool upright = isOrigin(x, y, 1.0);
     const Scalar ahead = side * y;
     const Scalar aside = side * x;
     joints[4] = upright ? Scalar(reference[4]) : nearTo(reference[4], angleOf(aside, ahead));
-    const TurnOf<Scalar> c = turnTowards(aside, ahead, joints[4]);
+    const TurnOf<Scalar> c = upright ? turnBy(joints[4]) : turnTowards(aside, ahead, joints[4]);
     joints[3] = nearTo(reference[3], angleOf(x * c.s + y * c.c, pose.turn(2, 2)));
     Vector<Scalar> place = pose.place;
     place(2) += Scalar(tableHeight);

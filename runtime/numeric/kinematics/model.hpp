@@ -70,6 +70,13 @@ template <class Scalar> bool isNegative(const Scalar &number) noexcept {
   return !(valueOf(number) >= 0);
 }
 
+/// Whether a point is the origin, but for the rounding of numbers of a size: nothing decides the
+/// angle that leads to it.
+template <class Scalar> bool isOrigin(const Scalar &x, const Scalar &y, double size) noexcept {
+  const double most = 1e-12 * size;
+  return valueOf(x) * valueOf(x) + valueOf(y) * valueOf(y) <= most * most;
+}
+
 template <class Scalar> Scalar square(const Scalar &number) noexcept { return number * number; }
 
 /// The turn about z that is nearest to an orientation (least squares of all elements). [rad]

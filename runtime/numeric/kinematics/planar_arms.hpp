@@ -27,7 +27,7 @@ Outcome bendArm(double first, double second, const Scalar &x, const Scalar &y, b
   const Scalar s = positive ? height : -height;
   const Scalar c = x * x + y * y - Scalar(first * first + second * second);
   angle[1] = angleOf(s, c);
-  if (!(valueOf(distance) > 0)) {
+  if (isOrigin(x, y, first + second)) {
     angle[0] = Scalar(reference);
     return Outcome::Done;
   }
