@@ -44,6 +44,7 @@ Arm standingOf(const GroupMotion &group, const Arm &arm) noexcept {
 PathPlace placeOf(const GroupMotion &group, const Frame<Series> &tool) noexcept {
   PathPlace place;
   place.byTool = true;
+  place.alsoTurns = false;
   place.tool = tool;
   for (int32_t k = kArmAxes; k < kAxes; ++k)
     place.axes[k] = Series(group.axes[k]);

@@ -23,14 +23,32 @@ End over(const Series &series, double speed) noexcept {
   return {series.c[0], series.c[1] * speed, 2.0 * series.c[2] * speed * speed};
 }
 
+path::Derivatives over(const Vector<Series> &place, double speed) noexcept {
+  const auto vectorAt = [&place](int n, double factor) {
+    return Vector3{place(0).c[n], place(1).c[n], place(2).c[n]} * factor;
+  };
+  return {vectorAt(0, 1.0), vectorAt(1, speed), vectorAt(2, 2.0 * speed * speed), numeric::kZero};
+}
+
 /// The parameter along a corner, and what all series of polynomials in it have in common.
 struct Parameter {
   Series u;
-  double square, product, cube; ///< Of its derivatives' shares: see valueOf.
+  double square, product, cube; ///< Of its derivatives' shares: see through.
 };
 
 Parameter parameter(const Series &u) noexcept {
   return {u, u.c[1] * u.c[1], 2.0 * u.c[1] * u.c[2], u.c[1] * u.c[1] * u.c[1]};
+}
+
+/// A series in the parameter, in which the parameter's own is put.
+Series through(const double (&p)[4], const Parameter &parameter) noexcept {
+  const Series &u = parameter.u;
+  Series series;
+  series.c[0] = 0.0 + p[0];
+  series.c[1] = 0.0 + p[1] * u.c[1];
+  series.c[2] = 0.0 + p[1] * u.c[2] + p[2] * parameter.square;
+  series.c[3] = 0.0 + p[1] * u.c[3] + p[2] * parameter.product + p[3] * parameter.cube;
+  return series;
 }
 
 /// A polynomial at the parameter: its own series there (Horner's scheme, again and again), and in
@@ -39,18 +57,32 @@ Series valueOf(const Quintic &polynomial, const Parameter &parameter) noexcept {
   const double(&c)[6] = polynomial.c;
   if (c[5] == 0.0 && c[4] == 0.0 && c[3] == 0.0 && c[2] == 0.0 && c[1] == 0.0)
     return Series(c[0] + 0.0); // as of axes that there are not
-  const Series &u = parameter.u;
-  const double at = u.c[0];
+  const double at = parameter.u.c[0];
   double p[6] = {c[0], c[1], c[2], c[3], c[4], c[5]};
   for (int order = 0; order < 4; ++order)
     for (int k = 4; k >= order; --k)
       p[k] += at * p[k + 1];
-  Series series;
-  series.c[0] = 0.0 + p[0];
-  series.c[1] = 0.0 + p[1] * u.c[1];
-  series.c[2] = 0.0 + p[1] * u.c[2] + p[2] * parameter.square;
-  series.c[3] = 0.0 + p[1] * u.c[3] + p[2] * parameter.product + p[3] * parameter.cube;
+  return through({p[0], p[1], p[2], p[3]}, parameter);
+}
+
+/// The parameter over the length of a curve, where its derivatives are known over the parameter.
+Series parameterOverLength(double u, const path::Derivatives &d) noexcept {
+  // u' = w^(-1/2) with w = d1 d1; that is derived twice.
+  const double w = numeric::dot(d.d1, d.d1);
+  const double along = numeric::dot(d.d1, d.d2);
+  const double next = numeric::dot(d.d2, d.d2) + numeric::dot(d.d1, d.d3);
+  const double first = 1.0 / exact::sqrt(w);
+  Series series(u);
+  series.c[1] = first;
+  series.c[2] = -0.5 * along / (w * w);
+  series.c[3] = first * (4.0 * along * along / w - next) / (6.0 * w * w);
   return series;
+}
+
+void putPoint(const path::Derivatives &d, const Parameter &u, Vector<Series> &place) noexcept {
+  place(0) = through({d.p.x, d.d1.x, 0.5 * d.d2.x, d.d3.x / 6.0}, u);
+  place(1) = through({d.p.y, d.d1.y, 0.5 * d.d2.y, d.d3.y / 6.0}, u);
+  place(2) = through({d.p.z, d.d1.z, 0.5 * d.d2.z, d.d3.z / 6.0}, u);
 }
 
 /// An orientation, given by rows, turned on twice; the products of both turns are four series.
@@ -107,12 +139,17 @@ Vector3 valueOf(const Vector<Series> &place) noexcept {
 Spin spinOf(const Leg &leg) noexcept { return {leg.about, leg.angle / leg.length}; }
 
 /// How long the derivatives over u are at the ends of a corner between two lines, over its chord,
-/// so that the tool is as fast in its middle: in between its velocity changes by 2 per thousand up
-/// to a right angle. Where the path nearly turns round that is too little for its curvature.
+/// so that the curve bends nearly evenly. Where the path nearly turns round that is too little for
+/// its curvature.
 double evenStretch(double turn) noexcept {
   const double even = 1.875 / (1.0 + 0.875 * ::stride::cos(0.5 * turn));
   return exact::larger(even, path::blendStretch(turn));
 }
+
+/// With more, in cuts, a corner between two lines would leave their triangle: its curve is in the
+/// hull of its control points, of which three lie on each line, the third one 2/5 of that from the
+/// end.
+constexpr double kMostSpeed = 2.5;
 
 /// How much of the ways of both legs a unit of u is at the ends of the corner.
 void setSpeeds(Corner &corner, double before, double after) noexcept {
@@ -137,12 +174,18 @@ Corner toolCorner(const Leg &before, double cutBefore, const Leg &after, double 
     const double turn =
         path::turnBetween(directionOf(begin.tool.place), directionOf(end.tool.place));
     const double chord = numeric::norm(valueOf(end.tool.place) - valueOf(begin.tool.place));
-    speedBefore = speedAfter = evenStretch(turn) * chord;
+    const double even = evenStretch(turn) * chord;
+    speedBefore = exact::smaller(even, kMostSpeed * cutBefore);
+    speedAfter = exact::smaller(even, kMostSpeed * cutAfter);
   }
   setSpeeds(corner, speedBefore, speedAfter);
-  for (int i = 0; i < 3; ++i)
-    corner.place[i] =
-        quintic(over(begin.tool.place(i), speedBefore), over(end.tool.place(i), speedAfter));
+  corner.place =
+      path::quinticShape(over(begin.tool.place, speedBefore), over(end.tool.place, speedAfter));
+  corner.byLength = bothGo;
+  if (bothGo) {
+    corner.ways = path::tableOf(corner.place);
+    corner.length = corner.place.length;
+  }
   for (int i = 0; i < 9; ++i)
     corner.turn[i] = after.turn[i];
   corner.before = spinOf(before);
@@ -165,18 +208,30 @@ Corner axesCorner(const AxesEnd &before, const AxesEnd &after) noexcept {
 }
 
 void placeAt(const Corner &corner, const Series &way, PathPlace &place) noexcept {
-  const Series x = way * (1.0 / corner.length);
-  const double change = corner.last - corner.first;
-  const Series cube = x * x * x;
-  const Parameter u =
-      parameter(corner.length * (corner.first * x + change * (cube - 0.5 * cube * x)));
+  path::Derivatives point{};
+  Parameter u;
+  if (corner.byLength) {
+    const double at = way.c[0] < corner.length
+                          ? path::parameterAt(corner.place, corner.ways, way.c[0])
+                          : 1.0; // exactly
+    point = path::overParameter(corner.place, at);
+    const Series series = parameterOverLength(at, point);
+    u = parameter(through({series.c[0], series.c[1], series.c[2], series.c[3]}, parameter(way)));
+  } else {
+    const Series x = way * (1.0 / corner.length);
+    const double change = corner.last - corner.first;
+    const Series cube = x * x * x;
+    u = parameter(corner.length * (corner.first * x + change * (cube - 0.5 * cube * x)));
+    if (corner.byTool)
+      point = path::overParameter(corner.place, u.u.c[0]);
+  }
   place.byTool = corner.byTool;
+  place.alsoTurns = corner.byTool && !corner.byLength;
   for (int32_t k = corner.byTool ? kArmAxes : 0; k < kAxes; ++k)
     place.axes[k] = valueOf(corner.axes[k], u);
   if (!corner.byTool)
     return;
-  for (int i = 0; i < 3; ++i)
-    place.tool.place(i) = valueOf(corner.place[i], u);
+  putPoint(point, u, place.tool.place);
   place.tool.turn = turnAt(corner, u);
 }
 

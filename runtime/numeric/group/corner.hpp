@@ -6,12 +6,15 @@
 // Along a corner runs a parameter u from 0 to 1. Tool's point, and axes where they lead, are
 // polynomials of degree 5 in u. What turns or goes along evenly on both legs is left by
 // a(u), from -cut to 0, and taken up by b(u), from 0 to the other cut: both of degree 5, and at
-// rest where they are 0. The way over u is of degree 4 the other way round: u'(way) changes
-// smoothly from what the first leg needs to what the second one does.
+// rest where they are 0. Where the tool's point goes on both legs, the way is the length of its
+// path, so that what the command says of it counts. Else there is no such length: u over the way is
+// of degree 4, and u'(way) changes smoothly from what the first leg needs to what the second one
+// does.
 #ifndef STRIDE_RUNTIME_NUMERIC_GROUP_CORNER_HPP
 #define STRIDE_RUNTIME_NUMERIC_GROUP_CORNER_HPP
 
 #include "runtime/numeric/group/leg.hpp"
+#include "runtime/numeric/path/way_table.hpp"
 
 namespace stride::group {
 
@@ -29,9 +32,11 @@ struct Spin {
 /// Trivially copyable; made by the functions below.
 struct Corner {
   bool byTool;         ///< The tool leads; else the axes.
+  bool byLength;       ///< The way is the length of its point's path.
   double length;       ///< Of the way along it.
   double first, last;  ///< u over the way at its start and at its end. [1/u]
-  Quintic place[3];    ///< Tool's point. [u]
+  path::Shape place;   ///< Tool's point.
+  path::WayTable ways; ///< Of that, if byLength.
   double turn[9];      ///< Orientation in the corner itself, by rows.
   Spin before, after;  ///< How the tool turns on the legs.
   Quintic leaves;      ///< a: way before the corner on the first leg.

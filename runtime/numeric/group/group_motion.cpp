@@ -117,6 +117,7 @@ void putStill(GroupMotion &group, const Arm &arm) noexcept {
     return;
   PathPlace place;
   place.byTool = true;
+  place.alsoTurns = false;
   place.tool = seriesOf(frameOf(group.tool));
   for (int32_t k = kArmAxes; k < kAxes; ++k)
     place.axes[k] = Series(group.axes[k]);

@@ -100,6 +100,7 @@ Leg axesLeg(const double (&from)[kAxes], const double (&to)[kAxes], const double
 void placeAt(const Leg &leg, const Series &way, PathPlace &place) noexcept {
   const Series part = way / leg.length; // exactly 1 at the end
   place.byTool = leadsTool(leg);
+  place.alsoTurns = false;
   for (int32_t k = place.byTool ? kArmAxes : 0; k < kAxes; ++k)
     place.axes[k] = Series(leg.from[k]) + leg.delta[k] * part;
   if (!place.byTool)

@@ -31,8 +31,7 @@ constexpr int kMostDepth = 12; ///< Of halves of halves: as many as lead there.
 struct Peaks {
   double d[4][kAxes];
   bool bent[kAxes]; ///< The path is not straight for this axis.
-  double speed;
-  double speedChange;
+  Pace pace[kPaces];
 };
 
 int32_t axisCount(const Arm &arm) noexcept { return kArmAxes + arm.more; }
@@ -40,23 +39,66 @@ bool hasAxis(const Arm &arm, int32_t k) noexcept {
   return k < arm.joints || (k >= kArmAxes && k < axisCount(arm));
 }
 
-/// How fast the tool's point moves; of one that stays, how fast it turns. [u], [°]
-void setSpeed(const PathPlace &place, Sample &sample) noexcept {
-  sample.speed = 0.0;
-  sample.speedChange = 0.0;
+/// Sums of products of derivatives of coordinates.
+struct Products {
+  double square;    ///< Of the first ones.
+  double along;     ///< Of first and second ones.
+  double alongNext; ///< Derivative of that.
+  double third;     ///< Of the third ones, squared.
+};
+
+Products productsOf(const Series *series, int count) noexcept {
+  Products sum{};
+  for (int i = 0; i < count; ++i) {
+    const double(&c)[4] = series[i].c;
+    sum.square += c[1] * c[1];
+    sum.along += 2.0 * c[1] * c[2];
+    sum.alongNext += 4.0 * c[2] * c[2] + 6.0 * c[1] * c[3];
+    sum.third += 36.0 * c[3] * c[3];
+  }
+  return sum;
+}
+
+/// How fast a point goes.
+Pace paceOf(const Products &sum) noexcept {
+  if (!(sum.square > 0.0)) // it starts, or stops: smoothly
+    return {{0.0, 0.0, exact::sqrt(sum.third)}};
+  const double speed = exact::sqrt(sum.square);
+  const double change = sum.along / speed;
+  return {{speed, fabs(change), fabs(sum.alongNext - change * change) / speed}};
+}
+
+/// How fast an orientation turns, by its nine numbers: together they change by the root of 2 times
+/// the angle. [rad] Where it nearly turns round, the amount changes in no time, which is no jerk.
+Pace paceOfTurn(const Matrix<Series> &turn) noexcept {
+  Products sum = productsOf(turn.data(), 9);
+  for (double *const product : {&sum.square, &sum.along, &sum.alongNext, &sum.third})
+    *product *= 0.5;
+  Pace pace = paceOf(sum);
+  const double most = exact::sqrt(sum.third) + pace.d[0] * sum.square;
+  pace.d[2] = smaller(pace.d[2], most);
+  return pace;
+}
+
+/// How fast the tool's point moves, and in a corner where that stops or starts, how fast it turns.
+/// [u], [°]
+void setPaces(const PathPlace &place, Sample &sample) noexcept {
+  for (Pace &pace : sample.pace)
+    pace = {};
   if (!place.byTool)
     return;
-  double square = 0.0;
-  double product = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    square += place.tool.place(i).c[1] * place.tool.place(i).c[1];
-    product += 2.0 * place.tool.place(i).c[1] * place.tool.place(i).c[2];
-  }
-  sample.speed = 1.0;
-  if (!(square > 0.0))
+  Pace(&pace)[kPaces] = sample.pace;
+  pace[0] = paceOf(productsOf(place.tool.place.data(), 3));
+  if (!place.alsoTurns) {
+    if (!(pace[0].d[0] > 0.0))
+      pace[0] = {{1.0, 0.0, 0.0}};
     return;
-  sample.speed = exact::sqrt(square);
-  sample.speedChange = product / sample.speed;
+  }
+  constexpr double kDegrees = 57.29577951308232;
+  pace[1] = paceOfTurn(place.tool.turn);
+  for (double &d : pace[1].d)
+    d *= kDegrees;
+  pace[2] = {{1.0, 0.0, 0.0}};
 }
 
 Obstacle take(const Arm &arm, const Track &track, double way, Look &look, Sample &sample) noexcept {
@@ -72,7 +114,7 @@ Obstacle take(const Arm &arm, const Track &track, double way, Look &look, Sample
   for (int32_t k = 0; k < kAxes; ++k)
     for (int n = 0; n < 4; ++n)
       sample.d[n][k] = hasAxis(arm, k) ? kFactorials[n] * axes[k].c[n] : 0.0;
-  setSpeed(place, sample);
+  setPaces(place, sample);
   return Obstacle::None;
 }
 
@@ -153,9 +195,10 @@ void raise(Peaks &peaks, const Sample &a, const Sample &m, const Sample &b) noex
   for (int n = 1; n < 4; ++n)
     for (int32_t k = 0; k < kAxes; ++k)
       peaks.d[n][k] = larger(peaks.d[n][k], peakOf(a.d[n][k], m.d[n][k], b.d[n][k]));
-  peaks.speed = larger(peaks.speed, peakOf(a.speed, m.speed, b.speed));
-  peaks.speedChange =
-      larger(peaks.speedChange, peakOf(a.speedChange, m.speedChange, b.speedChange));
+  for (int32_t i = 0; i < kPaces; ++i)
+    for (int n = 0; n < 3; ++n)
+      peaks.pace[i].d[n] =
+          larger(peaks.pace[i].d[n], peakOf(a.pace[i].d[n], m.pace[i].d[n], b.pace[i].d[n]));
 }
 
 /// Raises peaks over a part that is too short to be a strip of its own, or even.
@@ -202,6 +245,11 @@ void straighten(const Arm &arm, double length, Peaks &peaks) noexcept {
     peaks.bent[k] = peaks.d[2][k] * length > little || peaks.d[3][k] * length * length > little;
     if (!peaks.bent[k])
       peaks.d[2][k] = peaks.d[3][k] = 0.0;
+  }
+  for (Pace &pace : peaks.pace) {
+    const double(&d)[3] = pace.d;
+    if (d[1] * length <= kStraight * d[0] && d[2] * length * length <= kStraight * d[0])
+      pace.d[1] = pace.d[2] = 0.0;
   }
 }
 
@@ -253,13 +301,48 @@ void limitInBends(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexce
   strip.deceleration = smaller(strip.deceleration, most);
 }
 
+/// The velocity at which a pace that changes along the way takes no more than its shares of what
+/// the command allows.
+void limitPace(const Pace &pace, const PathLimits &path, path::Strip &strip) noexcept {
+  if (pace.d[0] > 0.0)
+    strip.feed = smaller(strip.feed, path.velocity / pace.d[0]);
+  if (pace.d[1] > 0.0)
+    strip.ceiling = smaller(strip.ceiling,
+                            kBendShare * smaller(path.acceleration, path.deceleration) / pace.d[1]);
+  if (pace.d[2] > 0.0)
+    limitVelocity(strip, numeric::cubeRoot(kBendJerkShare * path.jerk / pace.d[2]));
+}
+
 void limitByPath(const Peaks &peaks, const PathLimits &path, path::Strip &strip) noexcept {
-  if (!(peaks.speed > 0.0))
-    return;
-  strip.feed = smaller(strip.feed, path.velocity / peaks.speed);
-  strip.acceleration = path.acceleration / peaks.speed;
-  strip.deceleration = path.deceleration / peaks.speed;
-  strip.jerk = static_cast<float>(smaller(path.jerk / peaks.speed, 1e30));
+  for (const Pace &pace : peaks.pace)
+    limitPace(pace, path, strip);
+}
+
+/// After the velocity: what it leaves of the command's accelerations and jerk. A pace p that
+/// changes makes of velocity v, acceleration a and jerk j: p a + p' v^2 and
+/// p j + 3 p' v a + p'' v^3.
+void limitAlongPath(const Peaks &peaks, const PathLimits &path, path::Strip &strip) noexcept {
+  const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
+  for (const Pace &pace : peaks.pace) {
+    const double(&p)[3] = pace.d;
+    if (!(p[0] > 0.0))
+      continue;
+    // Nothing of what is infinite where nothing changes.
+    const double taken = p[1] > 0.0 ? p[1] * velocity * velocity : 0.0;
+    const double jerkTaken = p[2] > 0.0 ? p[2] * velocity * velocity * velocity : 0.0;
+    double acceleration = (path.acceleration - taken) / p[0];
+    double deceleration = (path.deceleration - taken) / p[0];
+    double jerk = (path.jerk - jerkTaken) / p[0];
+    if (p[1] > 0.0) {
+      const double most = (1.0 - kChangeShare) * jerk * p[0] / (3.0 * p[1] * velocity);
+      acceleration = smaller(acceleration, most);
+      deceleration = smaller(deceleration, most);
+      jerk *= kChangeShare;
+    }
+    strip.acceleration = smaller(strip.acceleration, acceleration);
+    strip.deceleration = smaller(strip.deceleration, deceleration);
+    strip.jerk = static_cast<float>(smaller(jerk, static_cast<double>(strip.jerk)));
+  }
 }
 
 /// Nobody can tell an acceleration that rises within half a millisecond from one that jumps, but
@@ -297,6 +380,7 @@ void makeStrip(const Arm &arm, Peaks &peaks, const PathLimits &path, double leng
   straighten(arm, length, peaks);
   limitByPath(peaks, path, strip);
   limitByAxes(arm, peaks, strip);
+  limitAlongPath(peaks, path, strip);
   limitJerk(arm, peaks, strip);
   limitRise(strip);
   limitInBends(arm, peaks, strip);

@@ -56,13 +56,21 @@ struct Track {
 Obstacle axesAt(const Arm &arm, const PathPlace &place, const double (&reference)[kAxes],
                 Series (&axes)[kAxes]) noexcept;
 
+/// How fast something goes per unit of the way, and its first two derivatives: amounts.
+struct Pace {
+  double d[3];
+};
+
+/// What of the tool's motion its command limits.
+inline constexpr int32_t kPaces = 3;
+
 /// A place by its axes' derivatives over the way, d[n][k], n-th of axis k, and how fast the tool
 /// is.
 struct Sample {
   double way;
   double d[4][kAxes];
-  double speed;       ///< Of the tool's path per unit of the way; 0: the axes lead.
-  double speedChange; ///< Its derivative.
+  Pace pace[kPaces]; ///< Of the tool's point, of its turn, of the way itself. All 0: it does not
+                     ///< count.
 };
 
 inline constexpr int32_t kKeptSamples = 5;

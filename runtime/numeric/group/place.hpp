@@ -137,6 +137,8 @@ inline Matrix<Series> turnedOn(const Vector3 &about, const Series &angle,
 /// the axes that go along are always said.
 struct PathPlace {
   bool byTool;
+  bool alsoTurns;     ///< If byTool: its point stops or starts, so that the way and how the tool
+                      ///< turns count besides how far the point goes. [°]
   Frame<Series> tool; ///< If byTool.
   Series axes[kAxes]; ///< The first kArmAxes unless byTool. [u]
 };

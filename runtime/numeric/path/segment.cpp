@@ -7,26 +7,6 @@ namespace {
 
 using exact::fabs;
 
-constexpr int kParts = 16; ///< Of a WayTable.
-constexpr int kMostSteps = 6;
-
-WayTable tableOf(const Shape &shape) noexcept {
-  WayTable table{};
-  for (int i = 0; i < kParts; ++i) {
-    const double from = static_cast<double>(i) / kParts;
-    const double to = static_cast<double>(i + 1) / kParts;
-    const double length = lengthBetween(shape, from, to);
-    table.way[i + 1] = table.way[i] + length;
-    if (fabs(length - quickLength(shape, from, to)) > 1e-13 * shape.length)
-      table.uneven |= 1U << static_cast<unsigned>(i);
-  }
-  return table;
-}
-
-bool isUneven(const WayTable &table, int part) noexcept {
-  return (table.uneven >> static_cast<unsigned>(part) & 1U) != 0;
-}
-
 Progress evenly(double u, double length) noexcept { return {u, 1.0 / length, 0.0, 0.0}; }
 
 Progress sProfile(double u, double length) noexcept {
@@ -84,38 +64,13 @@ Segment makeSegment(const Shape &shape, const Companion (&companions)[kCoordinat
 }
 
 double parameterAt(const Segment &segment, double way) noexcept {
-  const Shape &shape = segment.shape;
-  if (!hasTable(segment))
-    return way / segment.length;
-  int part = 0;
-  for (int half = kParts / 2; half > 0; half /= 2)
-    if (segment.table.way[part + half] <= way)
-      part += half;
-  const double from = static_cast<double>(part) / kParts;
-  const double to = static_cast<double>(part + 1) / kParts;
-  const double begin = segment.table.way[part];
-  const double span = segment.table.way[part + 1] - begin;
-  double u = from + (to - from) * exact::smaller((way - begin) / span, 1.0);
-  if (isUneven(segment.table, part))
-    return parameterBetween(shape, from, to, way - begin, u);
-  for (int i = 0; i < kMostSteps; ++i) {
-    const double off = way - begin - quickLength(shape, from, u);
-    u += off / speedAt(shape, u);
-    if (fabs(off) <= 1e-14 * segment.length)
-      break;
-  }
-  return exact::smaller(exact::larger(u, 0.0), 1.0);
+  return hasTable(segment) ? parameterAt(segment.shape, segment.table, way) : way / segment.length;
 }
 
 double wayAt(const Segment &segment, double u) noexcept {
-  const Shape &shape = segment.shape;
-  if (!hasTable(segment) || u >= 1.0)
-    return u < 1.0 ? u * segment.length : segment.length;
-  const int part = static_cast<int>(u * kParts);
-  const double from = static_cast<double>(part) / kParts;
-  const double more =
-      isUneven(segment.table, part) ? lengthBetween(shape, from, u) : quickLength(shape, from, u);
-  return exact::smaller(segment.table.way[part] + more, segment.length);
+  if (hasTable(segment))
+    return wayAt(segment.shape, segment.table, u);
+  return u < 1.0 ? u * segment.length : segment.length;
 }
 
 PathPoint pointAt(const Segment &segment, double way) noexcept {

@@ -5,7 +5,7 @@
 #define STRIDE_RUNTIME_NUMERIC_PATH_SEGMENT_HPP
 
 #include "runtime/numeric/path/course.hpp"
-#include "runtime/numeric/path/shape.hpp"
+#include "runtime/numeric/path/way_table.hpp"
 
 namespace stride::path {
 
@@ -13,12 +13,6 @@ namespace stride::path {
 inline constexpr int32_t kCoordinates = 12;
 inline constexpr int32_t kSpace = 3; ///< Of these, the first three are those of the shape.
 inline constexpr int32_t kBent = 3;  ///< So many after these may go by slopes: A, B, C.
-
-/// For the parameter of a shape at a way, where it is not proportional to that.
-struct WayTable {
-  double way[17];  ///< At parameters of 0, 1/16 ... 1. [u]
-  uint32_t uneven; ///< Bits of the parts for which a rule of five points is not exact.
-};
 
 /// Trivially copyable. Made by makeSegment.
 struct Segment {
