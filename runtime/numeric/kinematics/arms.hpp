@@ -241,6 +241,15 @@ inline Posture OffsetWristArm::postureOf(const double *joints) const noexcept {
           .hand = ::stride::sin(joints[4]) >= 0};
 }
 
+/// An axis of the tool seen from the plane of an arm, which `base` has turned about z: in front,
+/// above, and at right angles (the axis of joints 1 to 3 of an OffsetWristArm).
+template <class Scalar>
+void seeFromPlane(const TurnOf<Scalar> &base, const Vector<Scalar> &axis, Scalar (&out)[3]) {
+  out[0] = base.c * axis(0) + base.s * axis(1);
+  out[1] = axis(2);
+  out[2] = base.s * axis(0) - base.c * axis(1);
+}
+
 template <class Scalar>
 Outcome OffsetWristArm::inverse(const Frame<Scalar> &pose, Posture posture, const double *reference,
                                 Scalar *joints) const {
@@ -257,19 +266,12 @@ Outcome OffsetWristArm::inverse(const Frame<Scalar> &pose, Posture posture, cons
   const Scalar aside = wrist(1) * way + wrist(0) * d4;
   joints[0] = nearTo(reference[0], angleOf(aside, ahead));
   const TurnOf<Scalar> base = turnTowards(aside, ahead, joints[0]);
-  // Axes of the tool seen from the arm's plane: in front, above, and at right angles (the axis of
-  // joints 1 to 3).
-  const auto seen = [&](const Vector<Scalar> &axis, Scalar(&out)[3]) {
-    out[0] = base.c * axis(0) + base.s * axis(1);
-    out[1] = axis(2);
-    out[2] = base.s * axis(0) - base.c * axis(1);
-  };
   Scalar x[3];
   Scalar y[3];
   Scalar z[3];
-  seen(pose.turn.col(0), x);
-  seen(pose.turn.col(1), y);
-  seen(approach, z);
+  seeFromPlane<Scalar>(base, pose.turn.col(0), x);
+  seeFromPlane<Scalar>(base, pose.turn.col(1), y);
+  seeFromPlane(base, approach, z);
   const Scalar across = rootOf(square(x[2]) + square(y[2]));
   const Scalar s = posture.hand ? across : -across;
   joints[4] = nearTo(reference[4], angleOf(s, z[2]));
