@@ -35,20 +35,8 @@ public:
     readLibraries(top, isLibrary);
     for (const CheckedSection &levels : top.sections("diagnostics", diagnostics_))
       readLevels(levels);
-    for (const CheckedSection &project : top.sections("project", diagnostics_)) {
-      config_.name = project.text("name");
-      checkProjectName(project.get("name"));
-      config_.poolSize = (static_cast<uint64_t>(project.integer("new_pool", 65536)) + 15) / 16 * 16;
-      config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
-      config_.truncIsInt = project.get("softmotion") != nullptr && config_.generation == 2;
-      config_.pack = static_cast<unsigned>(project.choice("layout", 0));
-      if (const TomlNode *defines = project.get("defines"))
-        for (const TomlNode &one : defines->children)
-          readDefine(one);
-      if (const TomlNode *sources = project.get("sources"))
-        for (const TomlNode &one : sources->children)
-          config_.sources.push_back({one.text, one.span});
-    }
+    for (const CheckedSection &project : top.sections("project", diagnostics_))
+      readProject(project);
     for (const CheckedSection &image : top.sections("image", diagnostics_)) {
       config_.addressing = static_cast<Addressing>(image.choice("addressing", 0));
       size_t area = 0;
@@ -88,6 +76,21 @@ public:
   }
 
 private:
+  void readProject(const CheckedSection &project) {
+    config_.name = project.text("name");
+    checkProjectName(project.get("name"));
+    config_.poolSize = (static_cast<uint64_t>(project.integer("new_pool", 65536)) + 15) / 16 * 16;
+    config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
+    config_.truncIsInt = project.get("softmotion") != nullptr && config_.generation == 2;
+    config_.pack = static_cast<unsigned>(project.choice("layout", 0));
+    if (const TomlNode *defines = project.get("defines"))
+      for (const TomlNode &one : defines->children)
+        readDefine(one);
+    if (const TomlNode *sources = project.get("sources"))
+      for (const TomlNode &one : sources->children)
+        config_.sources.push_back({one.text, one.span});
+  }
+
   void readLibraries(const CheckedSection &top, bool isLibrary) {
     for (const CheckedSection &library : top.sections("library", diagnostics_)) {
       if (!isLibrary) {

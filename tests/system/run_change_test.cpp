@@ -193,14 +193,9 @@ TEST_F(Run, ChangesThatFollowEachOtherDoNotUseUpThePath) {
   std::string path; // near the limit of 4096
   for (int i = 0; i < 1990; ++i)
     path += "./";
-  std::vector<std::string> sim = {STRIDE_BINARY_DIR "/stride-host",
-                                  "sim",
-                                  "a.so",
-                                  "--for",
-                                  "1s",
-                                  "--quiet",
-                                  "--print",
-                                  "PLC_PRG.n"};
+  const std::string host = STRIDE_BINARY_DIR "/stride-host";
+  std::vector<std::string> sim = {host, "sim",     "a.so",    "--for",
+                                  "1s", "--quiet", "--print", "PLC_PRG.n"};
   for (int i = 1; i <= 100; ++i) {
     sim.emplace_back("--change");
     sim.push_back(fmt::format("{}ms,{}a.so", i, path));
