@@ -5,7 +5,6 @@
 #include "compiler/export/declaration_texts.hpp"
 #include "compiler/project/project.hpp"
 
-#include <array>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
@@ -18,9 +17,6 @@ using Node = pugi::xml_node;
 inline constexpr std::string_view kCodesys = "http://www.3s-software.com/plcopenxml/";
 /// Those of Stride: text that no element can say.
 inline constexpr std::string_view kStride = "urn:stride:plcopen:";
-/// The sections of stride.toml that describe the hardware and its axes, and go out as they are.
-inline constexpr std::array<std::string_view, 6> kHardwareSections = {"image",      "io",  "axis",
-                                                                      "axes_group", "csy", "bus"};
 
 /// Writes elements of one project.
 class Writer {

@@ -6,7 +6,6 @@
 #include "compiler/source/toml_sections.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -77,12 +76,10 @@ void readSource(Context &context, const Node &element) {
 
 /// Sections of stride.toml that `stride export plcopen` keeps: of those that it does, nothing else.
 void readHardware(Context &context, const Node &element) {
-  constexpr std::array<std::string_view, 6> kKept = {"image",      "io",  "axis",
-                                                     "axes_group", "csy", "bus"};
   const std::string text = linesOf(element);
   for (const TomlSectionText &each : tomlSections(text)) {
     const std::string name(each.name);
-    if (std::ranges::find(kKept, each.name) == kKept.end()) {
+    if (std::ranges::find(kHardwareSections, each.name) == kHardwareSections.end()) {
       context.leftOut(element, fmt::format("section {}", name),
                       "only sections about inputs, outputs and drives are taken");
       continue;

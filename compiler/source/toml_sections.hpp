@@ -2,11 +2,16 @@
 #define STRIDE_COMPILER_SOURCE_TOML_SECTIONS_HPP
 // A TOML file cut into its outermost sections, each as it is written.
 
-#include <string>
+#include <array>
 #include <string_view>
 #include <vector>
 
 namespace stc {
+
+/// The sections of stride.toml that describe the hardware and its axes: PLCopen XML has no elements
+/// for them, so that they go through it as they are.
+inline constexpr std::array<std::string_view, 6> kHardwareSections = {"image",      "io",  "axis",
+                                                                      "axes_group", "csy", "bus"};
 
 /// `[[bus]]` up to the next header, with the comment lines right before it. `[[bus.axis_group]]` is
 /// a section of its own with the same name.
