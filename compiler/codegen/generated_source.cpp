@@ -57,11 +57,6 @@ void closeBudget(Writer &text, const Uses &uses) {
   text.endLine();
 }
 
-/// Where callers are beside it.
-bool isWorthInlining(Context &run, const PouSymbol *pou) {
-  return run.repetition.isRepeated(pou) ? isInlinable(pou) : isTiny(pou);
-}
-
 std::string openSpace(Context &run) {
   return "\nnamespace st::" + std::string(run.names.space(run.own)) + " {\n";
 }
@@ -366,7 +361,7 @@ GeneratedFile GeneratedSource::inlined(const PouSymbol *own) const {
     file.fromGenerated(path);
   }
   lines(file, "} // namespace st::" + std::string(run.names.space(run.own)) + "\n#endif\n");
-  return {path, file.take(), false};
+  return {path, file.take()};
 }
 
 GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) const {
@@ -380,8 +375,12 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
   head += cx_.includes.text(own, true, single ? nullptr : run.own);
   head += sourcePrelude();
   lines(file, head + openSpace(run));
-  const bool isHinted = single && own != nullptr && own->kind == SymbolKind::Pou &&
-                        isWorthInlining(run, static_cast<const PouSymbol *>(own));
+  const auto *pou = own != nullptr && own->kind == SymbolKind::Pou
+                        ? static_cast<const PouSymbol *>(own)
+                        : nullptr;
+  // Where callers are beside it.
+  const bool isHinted =
+      single && pou != nullptr && isWorthInlining(pou, run.repetition.isRepeated(pou));
   for (const Piece &piece : pieces_) {
     file.blank();
     if (isHinted && piece.isBody)
@@ -392,7 +391,7 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
   }
   file << "} // namespace st::" << run.names.space(run.own);
   file.endLine();
-  return {path_, file.take(), false};
+  return {path_, file.take()};
 }
 
 } // namespace stc::codegen

@@ -122,7 +122,7 @@ private:
         text += fmt::format("#define {}\n", besideMacro(file->path));
     for (const GeneratedFile *file : sources)
       text += fmt::format("#include \"{}\"\n", file->path);
-    GeneratedFile unit{fmt::format("{}{}.cpp", kFolder, name), std::move(text), false};
+    GeneratedFile unit{fmt::format("{}{}.cpp", kFolder, name), std::move(text)};
     units_.push_back(
         {unit.path,
          fmt::format("{} and {} more", titleOf(sources.front()->path), sources.size() - 1),

@@ -77,6 +77,6 @@ bool fits(const PouSymbol *pou, int limit) {
 
 bool isInlinable(const PouSymbol *pou) { return fits(pou, kLimit); }
 
-bool isTiny(const PouSymbol *pou) { return fits(pou, kTiny); }
+bool isWorthInlining(const PouSymbol *pou, bool often) { return fits(pou, often ? kLimit : kTiny); }
 
 } // namespace stc::codegen

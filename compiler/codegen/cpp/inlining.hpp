@@ -10,8 +10,8 @@ namespace stc::codegen {
 /// The body is small enough to be worth it. Known from the syntax alone, so that a project and the
 /// library that it uses agree.
 [[nodiscard]] bool isInlinable(const PouSymbol *pou);
-/// It is worth it even where the call is made once in a cycle.
-[[nodiscard]] bool isTiny(const PouSymbol *pou);
+/// The body belongs beside its callers. Where a call is not made often, it must be tiny.
+[[nodiscard]] bool isWorthInlining(const PouSymbol *pou, bool often);
 
 } // namespace stc::codegen
 

@@ -380,7 +380,7 @@ void Includes::pointed(const Type *type) {
 
 void Includes::called(const PouSymbol *pou, bool often) {
   symbol(pou);
-  if (often ? isInlinable(pou) : isTiny(pou))
+  if (isWorthInlining(pou, often))
     bodies_.insert(pou);
 }
 
