@@ -15,7 +15,7 @@ const VarDecl *ChartFlags::declared(std::string_view what) const {
   return found == declared_.end() ? nullptr : *found;
 }
 
-Expr *ChartFlags::anyFlag(std::initializer_list<const char *> flags) {
+Expr *ChartFlags::anyFlag(const std::vector<const char *> &flags) {
   std::vector<Expr *> list;
   for (const char *one : flags)
     if (hasFlag(one))
@@ -24,15 +24,13 @@ Expr *ChartFlags::anyFlag(std::initializer_list<const char *> flags) {
 }
 
 Expr *ChartFlags::anyStop(bool init) {
-  std::vector<Expr *> list;
-  for (const char *one : {"SFCInit", "SFCPause", "SFCQuitError"}) {
-    const bool counts = one == std::string_view("SFCInit")        ? init
-                        : one == std::string_view("SFCQuitError") ? hasFlag("SFCError")
-                                                                  : true;
-    if (counts && hasFlag(one))
-      list.push_back(flag(one));
-  }
-  return make_.combined(BinaryOp::LogicalOr, list);
+  std::vector<const char *> flags;
+  if (init)
+    flags.push_back("SFCInit");
+  flags.push_back("SFCPause");
+  if (hasFlag("SFCError"))
+    flags.push_back("SFCQuitError");
+  return anyFlag(flags);
 }
 
 Expr *ChartFlags::limit(const std::string &what, Expr *time, Statements &out) {

@@ -6,7 +6,6 @@
 #include "compiler/syntax/chart.hpp"
 #include "compiler/syntax/chart_nodes.hpp"
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,7 +44,7 @@ protected:
     return make_.variable(make_.name(what, declared(what)->name.span));
   }
   /// Whether one of the flags is TRUE; null: none of them is declared.
-  ast::Expr *anyFlag(std::initializer_list<const char *> flags);
+  ast::Expr *anyFlag(const std::vector<const char *> &flags);
   /// Whether a flag lets nothing happen; null: none of them is declared.
   ast::Expr *anyStop(bool init);
   ast::Name fires(size_t i) {
