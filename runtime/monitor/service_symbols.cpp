@@ -230,9 +230,7 @@ void Service::setMode(ClientId client, const json &id, const json &request,
   if (tasks.stopped())
     throw ServiceError{"gone", "the application is ending, or an exception has stopped it"};
   tasks.setMode(mode);
-  Pending pending{client, id, number, nullptr, false, false, 0};
-  pending.setsMode = true;
-  wait(std::move(pending));
+  wait({.client = client, .id = id, .application = number, .request = {}, .setsMode = true});
 }
 
 json Service::stateOf(const ServedApplication &application) {

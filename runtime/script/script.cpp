@@ -1,6 +1,7 @@
 #include "runtime/script/script.hpp"
 
 #include "runtime/app/trace_columns.hpp"
+#include "runtime/task/task_set.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 
 #include "runtime/app/condition.hpp"
 #include "runtime/task/cycle_hook.hpp"
-#include "runtime/task/task_set.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -13,6 +12,10 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace stride::task {
+class TaskSet;
+} // namespace stride::task
 
 namespace stride::script {
 
