@@ -198,7 +198,8 @@ private:
     }
     const std::string_view time = partsOf(all).front();
     one.time = time;
-    if (const size_t end = time.data() + time.size() - all.data(); end < all.size())
+    if (const auto end = static_cast<size_t>(time.data() + time.size() - all.data());
+        end < all.size())
       one.indicator = trimmed(std::string_view(all).substr(all.find(',', end) + 1));
   }
 

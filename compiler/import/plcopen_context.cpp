@@ -184,7 +184,7 @@ void Context::add(ObjectKind kind, const Node &node, std::string name, std::stri
 
 std::string Context::addHelperType(const Node &node, const std::string &owner,
                                    const std::string &text) {
-  const std::string name = fmt::format("{}_type{}", asIdentifier(owner), ++helperTypes_);
+  std::string name = fmt::format("{}_type{}", asIdentifier(owner), ++helperTypes_);
   add(ObjectKind::Type, node, name, fmt::format("TYPE {} :\n{}\nEND_TYPE\n", name, text));
   changed(node, owner, fmt::format("its type is declared in line; it became {}", name));
   return name;

@@ -129,7 +129,7 @@ void readSettings(Context &context, const Node &node, ResourceTask &task) {
 }
 
 std::string priorityOf(Context &context, const Node &node, const std::string &object) {
-  const std::string priority = attribute(node, "priority");
+  std::string priority = attribute(node, "priority");
   if (std::strtol(priority.c_str(), nullptr, 10) <= kLowestPriority)
     return priority;
   context.changed(node, object,
