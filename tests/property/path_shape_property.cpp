@@ -1,11 +1,13 @@
 // Shapes of path objects: their length against closed forms and a plain sum in long double, their
 // derivatives over the arc length against differences, and the way back from length to parameter.
 #include "runtime/numeric/path/shape.hpp"
+#include "runtime/numeric/path/way_table.hpp"
 
 #include "motion_problems.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -93,8 +95,9 @@ TEST(PathShape, HasTheLengthOfItsChords) {
   }
 }
 
-/// The integral of the speed of a polynomial by Gauss's rule of three points, in long double.
-long double speedIntegral(const Shape &shape, int parts) {
+/// The integral of the speed of a polynomial by Gauss's rule of three points, in long double, from
+/// its start to a parameter.
+long double speedIntegral(const Shape &shape, int parts, long double to = 1) {
   const auto speed = [&shape](long double u) {
     long double d[3] = {};
     for (int k = 5; k >= 1; --k) {
@@ -108,27 +111,30 @@ long double speedIntegral(const Shape &shape, int parts) {
   const long double place = std::sqrt(0.6L);
   long double sum = 0;
   for (int i = 0; i < parts; ++i) {
-    const long double middle = (i + 0.5L) / parts;
-    const long double off = place / (2 * parts);
+    const long double middle = to * (i + 0.5L) / parts;
+    const long double off = to * place / (2 * parts);
     sum += 8 * speed(middle) + 5 * (speed(middle - off) + speed(middle + off));
   }
-  return sum / (18 * parts);
+  return to * sum / (18 * parts);
+}
+
+/// A polynomial as corners have them, or a wild one.
+Shape randomQuintic(Random &random) {
+  const double size = random.magnitude(-4, 4);
+  const Vector3 begin = randomVector(random, size);
+  const double wild = random.chance(0.5) ? 0.3 : 3;
+  const Vector3 end = begin + randomVector(random, wild * size);
+  const Vector3 place = begin + randomVector(random, 0.5 * wild * size);
+  const Vector3 lastBend = randomVector(random, wild * size);
+  const Vector3 bend = randomVector(random, wild * size);
+  return quinticShape({{}, begin, bend, {}}, {place, end, lastBend, {}});
 }
 
 TEST(PathShape, APolynomialHasItsLengthToTheLastDigits) {
   int checked = 0;
   for (int i = 0; i < casesOf(1500); ++i) {
     Random random(static_cast<uint64_t>(i));
-    const double size = random.magnitude(-4, 4);
-    Vector3 begin = randomVector(random, size);
-    // As corners have them, and wild ones.
-    const double wild = random.chance(0.5) ? 0.3 : 3;
-    const Vector3 end = begin + randomVector(random, wild * size);
-    const Shape shape = quinticShape({{}, begin, randomVector(random, wild * size), {}},
-                                     {begin + randomVector(random, 0.5 * wild * size),
-                                      end,
-                                      randomVector(random, wild * size),
-                                      {}});
+    const Shape shape = randomQuintic(random);
     const long double length = speedIntegral(shape, 800);
     if (std::fabs(speedIntegral(shape, 400) - length) > 1e-14L * length)
       continue; // nearly a cusp
@@ -225,6 +231,33 @@ TEST(PathShape, TheParameterAtALengthIsTheInverseOfTheLength) {
     ASSERT_EQ(parameterAt(shape, shape.length), 1);
     ASSERT_EQ(parameterAt(shape, -1), 0);
   }
+}
+
+TEST(PathShape, ATableHasTheParameterAtAWay) {
+  int checked = 0;
+  for (int i = 0; i < casesOf(200) && !HasFailure(); ++i) {
+    SCOPED_TRACE("seed " + std::to_string(i));
+    Random random(static_cast<uint64_t>(i));
+    const Shape shape = randomQuintic(random);
+    const WayTable table = tableOf(shape);
+    ASSERT_EQ(parameterAt(shape, table, 0), 0);
+    ASSERT_NEAR(parameterAt(shape, table, shape.length), 1, 1e-12);
+    if (std::fabs(speedIntegral(shape, 400) - speedIntegral(shape, 800)) > 1e-14L * shape.length)
+      continue; // nearly a cusp
+    ++checked;
+    for (int part = 0; part < 20; ++part) {
+      // At the ends of the table's parts, near to them, anywhere.
+      const double border = wayAt(shape, table, random.below(17) / 16.0);
+      const double near = border * (1 + random.uniform(-1e-9, 1e-9));
+      const double any = random.uniform(0, shape.length);
+      const double way = std::min(part < 5 ? border : part < 10 ? near : any, shape.length);
+      const double u = parameterAt(shape, table, way);
+      const auto reached = static_cast<double>(speedIntegral(shape, 800, u));
+      ASSERT_NEAR(reached, way, 2e-13 * shape.length) << u; // what parts may be uneven
+      ASSERT_NEAR(wayAt(shape, table, u), way, 1e-14 * shape.length) << u;
+    }
+  }
+  EXPECT_GT(checked, casesOf(200) / 2);
 }
 
 TEST(PathShape, AQuinticHasTheEndsThatWereAskedFor) {

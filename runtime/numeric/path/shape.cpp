@@ -45,6 +45,31 @@ Derivatives polynomialOver(const Shape &shape, double u) noexcept {
   return d;
 }
 
+/// How fast a polynomial is gone through: the coefficients of its derivative.
+struct SpeedOf {
+  Vector3 c[5];
+};
+
+SpeedOf speedOf(const Shape &polynomial) noexcept {
+  const Vector3(&v)[6] = polynomial.v;
+  return {{v[1], v[2] * 2.0, v[3] * 3.0, v[4] * 4.0, v[5] * 5.0}};
+}
+
+/// The speeds at several parameters, which take their places. An even number of them goes through
+/// the processor's lanes by pairs.
+template <int kPoints> void setSpeeds(const SpeedOf &speed, double (&at)[kPoints]) noexcept {
+  const Vector3(&c)[5] = speed.c;
+  for (double &place : at) {
+    const double u = place;
+    const double x = c[0].x + (c[1].x + (c[2].x + (c[3].x + c[4].x * u) * u) * u) * u;
+    const double y = c[0].y + (c[1].y + (c[2].y + (c[3].y + c[4].y * u) * u) * u) * u;
+    const double z = c[0].z + (c[1].z + (c[2].z + (c[3].z + c[4].z * u) * u) * u) * u;
+    place = x * x + y * y + z * z;
+  }
+  for (double &square : at)
+    square = exact::sqrt(square);
+}
+
 /// The integral over one part, halved until both halves together say the same. Where a curve nearly
 /// stands still, the rule is wrong by the square of the width: there the smallest parts must not be
 /// asked for less than the others, or they would be halved without end.
@@ -84,11 +109,6 @@ double integrate(const Shape &shape, double from, double to, double tolerance) n
   }
 }
 
-/// How fast a polynomial is gone through: the coefficients of its derivative.
-struct SpeedOf {
-  Vector3 c[5];
-};
-
 /// An integral by Gauss's rule of 7 points and by Kronrod's of 15, which goes on from it.
 struct Integral {
   double gauss;
@@ -115,22 +135,12 @@ Integral integral(const SpeedOf &speed, double from, double to) noexcept {
                                0.27970539148927666790, 0.12948496616886969327};
   const double middle = 0.5 * (from + to);
   const double half = 0.5 * (to - from);
-  const Vector3(&c)[5] = speed.c;
-  double at[kPoints];
   double length[kPoints];
   for (int i = 0; i < 8; ++i) {
-    at[i] = middle - half * kAt[i];
-    at[8 + i] = middle + half * kAt[i];
+    length[i] = middle - half * kAt[i];
+    length[8 + i] = middle + half * kAt[i];
   }
-  for (int i = 0; i < kPoints; ++i) {
-    const double u = at[i];
-    const double x = c[0].x + (c[1].x + (c[2].x + (c[3].x + c[4].x * u) * u) * u) * u;
-    const double y = c[0].y + (c[1].y + (c[2].y + (c[3].y + c[4].y * u) * u) * u) * u;
-    const double z = c[0].z + (c[1].z + (c[2].z + (c[3].z + c[4].z * u) * u) * u) * u;
-    length[i] = x * x + y * y + z * z;
-  }
-  for (double &square : length)
-    square = exact::sqrt(square);
+  setSpeeds(speed, length);
   Integral sum{kGauss[0] * length[0], kWeight[0] * length[0]};
   for (int i = 1; i < 8; ++i) {
     const double both = length[i] + length[8 + i];
@@ -150,12 +160,10 @@ bool agrees(const Integral &part) noexcept {
 /// The length of a polynomial that bends little, as corners do; less than 0 if it bends too much
 /// for that.
 double smoothLength(const Shape &shape) noexcept {
-  SpeedOf speed{};
+  const SpeedOf speed = speedOf(shape);
   Vector3 last = numeric::kZero;
   double most = 0.0;
-  for (int k = 0; k < 5; ++k) {
-    const Vector3 c = shape.v[k + 1] * (k + 1.0);
-    speed.c[k] = c;
+  for (const Vector3 &c : speed.c) {
     last = last + c;
     most = exact::larger(
         most, exact::larger(exact::fabs(c.x), exact::larger(exact::fabs(c.y), exact::fabs(c.z))));
@@ -290,12 +298,10 @@ Derivatives overLength(const Derivatives &c) noexcept {
 double speedAt(const Shape &shape, double u) noexcept {
   if (shape.kind != ShapeKind::Polynomial)
     return norm(overParameter(shape, u).d1);
-  Vector3 d1 = numeric::kZero; // as polynomialOver has it
-  Vector3 p = shape.v[5];
-  for (int k = 4; k >= 0; --k) {
-    d1 = d1 * u + p;
-    p = p * u + shape.v[k];
-  }
+  const Vector3(&v)[6] = shape.v;
+  Vector3 d1 = v[5] * 5.0; // as setSpeeds has it
+  for (int k = 4; k >= 1; --k)
+    d1 = v[k] * k + d1 * u;
   return norm(d1);
 }
 
@@ -305,11 +311,18 @@ double quickLength(const Shape &shape, double from, double to) noexcept {
                                 0.23692688505618908751};
   const double middle = 0.5 * (from + to);
   const double half = 0.5 * (to - from);
-  double sum = kWeight[0] * speedAt(shape, middle);
-  for (int i = 1; i < 3; ++i)
-    sum += kWeight[i] *
-           (speedAt(shape, middle - half * kAt[i]) + speedAt(shape, middle + half * kAt[i]));
-  return sum * half;
+  double at[] = {middle,
+                 middle - half * kAt[1],
+                 middle - half * kAt[2],
+                 middle, // the middle twice: see setSpeeds
+                 middle + half * kAt[1],
+                 middle + half * kAt[2]};
+  if (shape.kind == ShapeKind::Polynomial)
+    setSpeeds(speedOf(shape), at);
+  else
+    for (double &place : at)
+      place = speedAt(shape, place);
+  return (kWeight[0] * at[0] + kWeight[1] * (at[1] + at[4]) + kWeight[2] * (at[2] + at[5])) * half;
 }
 
 double lengthBetween(const Shape &shape, double from, double to) noexcept {
