@@ -172,30 +172,39 @@ void toJoints(const AnyKinematics &kinematics, const double *axes, double *joint
   }
 }
 
+/// How fast the tool's point goes when joints do by `moving`. [u]
+Vector<double> rateOf(const AnyKinematics &kinematics, const Jet<1> *moving) {
+  Frame<Jet<1>> end;
+  (void)ratesOf(kinematics, moving, end);
+  const Vector<Jet<1>> point = end.place + times(end.turn, toolPoint(kinematics));
+  return {point(0).c[1], point(1).c[1], point(2).c[1]};
+}
+
 /// How placing axes follow the tool's point, one after the other in the columns of the matrix
 /// before it is inverted; infinite or NaN in a singular pose. Of two axes only x and y count.
-Matrix<double> followOf(const AnyKinematics &kinematics, const double *axes, unsigned toolAxes) {
-  double joints[kMostJoints];
-  toJoints(kinematics, axes, joints);
-  Jet<1> moving[kMostJoints];
+/// `toolRate`: how fast the point goes with the tool axes alone. [u]
+Matrix<double> followOf(const AnyKinematics &kinematics, const Jet<3> *axes, unsigned toolAxes,
+                        Vector<double> &toolRate) {
   const int count = kinematics.joints();
-  for (int i = 0; i < count; ++i)
-    moving[i] = Jet<1>(joints[i]);
-  const Vector<double> tool = toolPoint(kinematics);
   const unsigned turning = kinematics.turning();
+  Jet<1> moving[kMostJoints];
+  double scale[kMostJoints];
+  for (int i = 0; i < count; ++i) {
+    scale[i] = (turning >> i & 1U) != 0 ? kDegree : 1.0;
+    moving[i] = Jet<1>((axes[i].c[0] - kinematics.offset[i]) * scale[i]);
+    moving[i].c[1] = (toolAxes >> i & 1U) != 0 ? axes[i].c[1] * scale[i] : 0.0;
+  }
+  toolRate = rateOf(kinematics, moving);
+  for (int i = 0; i < count; ++i)
+    moving[i].c[1] = 0;
   Matrix<double> columns = Matrix<double>::Identity();
   int column = 0;
   for (int i = 0; i < count; ++i) {
     if ((toolAxes >> i & 1U) != 0)
       continue;
-    moving[i].c[1] = (turning >> i & 1U) != 0 ? kDegree : 1.0;
-    Frame<Jet<1>> end;
-    (void)ratesOf(kinematics, moving, end);
+    moving[i].c[1] = scale[i];
+    columns.col(column++) = rateOf(kinematics, moving);
     moving[i].c[1] = 0;
-    const Vector<Jet<1>> point = end.place + times(end.turn, tool);
-    for (int row = 0; row < 3; ++row)
-      columns(row, column) = point(row).c[1];
-    ++column;
   }
   if (column == 2) {
     columns.row(2).setZero();
@@ -287,14 +296,16 @@ Outcome AnyKinematics::place(const Vector<Jet<3>> &point, Posture posture, const
   for (int i = 0; i < count; ++i)
     if ((toolAxes >> i & 1U) == 0)
       axes[i] = Jet<3>(values[i]);
-  const Matrix<double> follow = followOf(*this, values, toolAxes);
+  Vector<double> rate;
+  const Matrix<double> follow = followOf(*this, axes, toolAxes, rate);
   // What the placing axes lack of an order, they lack of the point's way, too, and nothing else.
   for (int order = 1; order <= 3; ++order) {
     Frame<Jet<3>> tool;
-    (void)forward(axes, tool);
+    if (order > 1)
+      (void)forward(axes, tool);
     Vector<double> rest;
     for (int row = 0; row < 3; ++row)
-      rest(row) = point(row).c[order] - tool.place(row).c[order];
+      rest(row) = point(row).c[order] - (order > 1 ? tool.place(row).c[order] : rate(row));
     const Vector<double> more = times(follow, rest);
     int column = 0;
     for (int i = 0; i < count; ++i)
