@@ -1,12 +1,10 @@
-// Placing axes where the tool axes are given: with these as they stand, the tool's point is a fixed
-// point of the last placing link, so that a longer link ends in it. By that the axes follow in
-// closed form; their derivatives follow order by order through the Jacobian.
+// Placing axes where the tool axes are given: with these as they stand, the tool's point is a point
+// of the last placing link, so that a longer link, which the tool axes change, ends in it. By that
+// the placing axes follow in closed form, for numbers and for jets.
 #include "runtime/numeric/kinematics/any_parts.hpp"
 #include "runtime/numeric/kinematics/arms.hpp"
 #include "runtime/numeric/kinematics/hands.hpp"
 #include "runtime/numeric/quarter_turns.hpp"
-
-#include <Eigen/LU>
 
 namespace stride::kinematics {
 namespace {
@@ -22,14 +20,22 @@ Vector<double> toolPoint(const AnyKinematics &kinematics) {
   return {kinematics.toolPlace[0], kinematics.toolPlace[1], kinematics.toolPlace[2]};
 }
 
+template <class Scalar>
+Frame<Scalar> handFrame(const AnyKinematics &kinematics, const Scalar *joints) {
+  const HandTable &hand = tableOf(kinematics.hand);
+  if constexpr (__is_same(Scalar, double))
+    return hand.numbers.forward(kinematics.handMeasure, joints);
+  else
+    return hand.jets.forward(kinematics.handMeasure, joints);
+}
+
 /// The tool's point in the frame of the last placing link; not of a table that swivels. [u]
-Vector<double> heldPoint(const AnyKinematics &kinematics, const double *joints) {
+template <class Scalar>
+Vector<Scalar> heldPoint(const AnyKinematics &kinematics, const Scalar *joints) {
   const Vector<double> tool = toolPoint(kinematics);
   const double *const measures = kinematics.armMeasure;
   if (kinematics.hand != HandKind::None) {
-    const int first = tableOf(kinematics.arm).joints;
-    const Frame<double> hand =
-        tableOf(kinematics.hand).numbers.forward(kinematics.handMeasure, joints + first);
+    const Frame<Scalar> hand = handFrame(kinematics, joints + tableOf(kinematics.arm).joints);
     return hand.place + times(hand.turn, tool);
   }
   switch (kinematics.arm) {
@@ -42,21 +48,52 @@ Vector<double> heldPoint(const AnyKinematics &kinematics, const double *joints) 
     return times(aboutZ(joints[3]), tool);
   case ArmKind::OffsetWristArm: {
     const auto arm = modelOf<OffsetWristArm>(measures);
-    const Frame<double> wrist = chainStep(joints[3], arm.d4, 0, 1) *
-                                chainStep(joints[4], arm.d5, 0, -1) *
-                                chainStep(joints[5], arm.d6, 0, 0);
+    Frame<Scalar> wrist = chainStep(joints[3], arm.d4, 0, 1);
+    addStep(wrist, joints[4], arm.d5, 0, -1);
+    addStep(wrist, joints[5], arm.d6, 0, 0);
     return wrist.place + times(wrist.turn, tool);
   }
   default:
-    return tool;
+    return tool.cast<Scalar>();
   }
 }
 
-/// A lower and an upper arm that bend in an upright plane, and how their joints are counted: by
-/// those of an ArmRrr.
-struct Bending {
-  ArmRrr arm;
-  double turned; ///< Joint 1 of the ArmRrr over that of the machine, as that is with `mirrored`.
+/// As bendArm, with a second link whose length may change: to (x, y) at a distance from the origin.
+template <class Scalar>
+Outcome bendTo(double first, const Scalar &second, const Scalar &x, const Scalar &y, bool positive,
+               double reference, Scalar (&angle)[2]) {
+  if (!(first > 0 && valueOf(second) > 0 && exact::isfinite(first + valueOf(second))))
+    return Outcome::WrongMeasures;
+  const Scalar distance = rootOf(x * x + y * y);
+  const Scalar sum = Scalar(first) + second;
+  const Scalar difference =
+      first >= valueOf(second) ? Scalar(first) - second : second - Scalar(first);
+  const Scalar longer = sum - distance;
+  const Scalar shorter = distance - difference;
+  if (isNegative(longer) || isNegative(shorter))
+    return Outcome::Unreachable;
+  const Scalar height = rootOf(longer * (sum + distance) * shorter * (distance + difference));
+  const Scalar s = positive ? height : -height;
+  const Scalar c = x * x + y * y - Scalar(first * first) - second * second;
+  angle[1] = angleOf(s, c);
+  if (isOrigin(x, y, valueOf(sum))) {
+    angle[0] = Scalar(reference);
+    return Outcome::Done;
+  }
+  const TurnOf<Scalar> bend = turnTowards(s, c, angle[1]);
+  const Scalar along = Scalar(first) + second * bend.c;
+  const Scalar aside = second * bend.s;
+  angle[0] = angleOf(y * along - x * aside, x * along + y * aside);
+  return Outcome::Done;
+}
+
+/// An upper arm and a forearm that bend in an upright plane, measured as an ArmRrr is, but that the
+/// tool axes change what the forearm ends in; and how their joints are counted.
+template <class Scalar> struct Bending {
+  Scalar d1, a1;
+  double a2;
+  Scalar d3, a3, d4;
+  double turned; ///< Joint 1 of an ArmRrr over that of the machine, unless `mirrored`.
   double bent;   ///< Likewise joint 2.
   bool mirrored; ///< A palletiser: joint 1 counts forwards, joint 2 against level.
 
@@ -65,20 +102,55 @@ struct Bending {
     own[1] = mirrored ? -joints[1] : joints[1] + turned;
     own[2] = mirrored ? joints[1] + joints[2] : joints[2] + bent;
   }
-  void fromArm(const double (&own)[3], const double *near, double *joints) const noexcept {
+  void fromArm(const Scalar (&own)[3], const double *near, Scalar *joints) const noexcept {
     joints[0] = own[0];
-    joints[1] = mirrored ? -own[1] : own[1] - turned;
-    joints[2] = mirrored ? nearTo(near[2], own[1] + own[2]) : own[2] - bent;
+    joints[1] = mirrored ? -own[1] : own[1] - Scalar(turned);
+    joints[2] = mirrored ? nearTo(near[2], own[1] + own[2]) : own[2] - Scalar(bent);
+  }
+
+  /// As ArmRrr::inverse.
+  Outcome inverse(const Vector<Scalar> &point, Posture posture, const double *near,
+                  Scalar *joints) const {
+    double reference[3];
+    toArm(near, reference);
+    const Scalar &x = point(0);
+    const Scalar &y = point(1);
+    const Scalar inFront = x * x + y * y - d3 * d3;
+    if (isNegative(inFront))
+      return Outcome::Unreachable;
+    const Scalar way = posture.backwards ? -rootOf(inFront) : rootOf(inFront);
+    const Scalar forearm = rootOf(a3 * a3 + d4 * d4);
+    const double reach = a2 + valueOf(forearm);
+    Scalar own[3];
+    own[0] = isOrigin(x, y, reach)
+                 ? Scalar(reference[0])
+                 : nearTo(reference[0], angleOf(y * way + x * d3, x * way - y * d3));
+    Scalar angle[2];
+    const Outcome outcome =
+        bendTo(a2, forearm, way - a1, point(2) - d1, posture.elbow != posture.backwards,
+               reference[1] + kQuarter, angle);
+    if (outcome != Outcome::Done)
+      return outcome;
+    own[1] = nearTo(reference[1], angle[0] - Scalar(kQuarter));
+    own[2] = nearTo(reference[2], angle[1] - angleOf(-d4, a3));
+    fromArm(own, near, joints);
+    return Outcome::Done;
   }
 };
 
 /// The same as `kinematics`, with a point of its forearm as its end.
-Bending bendingOf(const AnyKinematics &kinematics, const Vector<double> &held) {
+template <class Scalar>
+Bending<Scalar> bendingOf(const AnyKinematics &kinematics, const Vector<Scalar> &held) {
   const double *const measures = kinematics.armMeasure;
+  const Scalar zero(0.0);
   if (kinematics.arm == ArmKind::Palletiser) {
     const auto its = modelOf<Palletiser>(measures);
-    return {{its.shoulderHeight - its.handDown + held(2),
-             its.shoulderFront + its.handFront + held(0), its.upperArm, -held(1), 0.0, its.forearm},
+    return {Scalar(its.shoulderHeight - its.handDown) + held(2),
+            Scalar(its.shoulderFront + its.handFront) + held(0),
+            its.upperArm,
+            -held(1),
+            zero,
+            Scalar(its.forearm),
             0.0,
             0.0,
             true};
@@ -86,13 +158,23 @@ Bending bendingOf(const AnyKinematics &kinematics, const Vector<double> &held) {
   if (kinematics.arm == ArmKind::OffsetWristArm) {
     const auto its = modelOf<OffsetWristArm>(measures);
     const double half = its.a2 < 0 ? kPi : 0.0; // a positive link that looks the other way
-    return {{its.d1, 0.0, exact::fabs(its.a2), held(2), its.a3 + held(0), -held(1)},
+    return {Scalar(its.d1),
+            zero,
+            exact::fabs(its.a2),
+            held(2),
+            Scalar(its.a3) + held(0),
+            -held(1),
             half - kQuarter,
             -half,
             false};
   }
   const auto its = modelOf<ArmRrr>(measures);
-  return {{its.d1, its.a1, its.a2, its.d3 + held(1), its.a3 + held(0), its.d4 + held(2)},
+  return {Scalar(its.d1),
+          Scalar(its.a1),
+          its.a2,
+          Scalar(its.d3) + held(1),
+          Scalar(its.a3) + held(0),
+          Scalar(its.d4) + held(2),
           0.0,
           0.0,
           false};
@@ -108,109 +190,116 @@ bool isScara(const AnyKinematics &kinematics) noexcept {
          kinematics.arm == ArmKind::Scara3 || kinematics.arm == ArmKind::Scara3Z;
 }
 
-/// Two arms of a Scara, the second one up to a point beside it.
-struct Reaching {
-  Scara2 arms;
-  double aside; ///< By how much it turns the second arm. [rad]
+/// The second arm of a Scara up to a point beside it.
+template <class Scalar> struct Reaching {
+  double firstArm;
+  Scalar secondArm;
+  Scalar aside; ///< By how much it turns the second arm. [rad]
 };
 
-Reaching reachingOf(const AnyKinematics &kinematics, const Vector<double> &held) {
-  auto arms = modelOf<Scara2>(kinematics.armMeasure); // the first measures of all of them
-  const double along = arms.secondArm + held(0);
-  arms.secondArm = ::stride::sqrt(along * along + held(1) * held(1));
-  return {arms, angleOf(held(1), along)};
+template <class Scalar>
+Reaching<Scalar> reachingOf(const AnyKinematics &kinematics, const Vector<Scalar> &held) {
+  const auto arms = modelOf<Scara2>(kinematics.armMeasure); // the first measures of all of them
+  const Scalar along = Scalar(arms.secondArm) + held(0);
+  return {arms.firstArm, rootOf(along * along + held(1) * held(1)), angleOf(held(1), along)};
+}
+
+template <class Scalar>
+Outcome placeScara(const AnyKinematics &kinematics, const Vector<Scalar> &held,
+                   const Vector<Scalar> &point, Posture posture, const double *near,
+                   Scalar *joints) {
+  const Reaching<Scalar> reaching = reachingOf(kinematics, held);
+  Scalar angle[2];
+  const Outcome outcome = bendTo(reaching.firstArm, reaching.secondArm, point(0), point(1),
+                                 posture.elbow, near[0], angle);
+  if (outcome != Outcome::Done)
+    return outcome;
+  joints[0] = nearTo(near[0], angle[0]);
+  joints[1] = nearTo(near[1], angle[1] - reaching.aside);
+  if (kinematics.arm == ArmKind::Scara2Z)
+    joints[2] = point(2) - held(2);
+  else if (kinematics.arm == ArmKind::Scara3Z)
+    joints[3] = point(2) - held(2);
+  return Outcome::Done;
+}
+
+template <class Scalar>
+Outcome placeTable(const AnyKinematics &kinematics, const Vector<Scalar> &held,
+                   const Vector<Scalar> &point, Scalar *joints) {
+  const auto table = modelOf<FiveAxisTable>(kinematics.armMeasure);
+  Vector<Scalar> place = point;
+  place(2) += Scalar(table.tableHeight);
+  place = times(aboutX(joints[3]), times(aboutZ(joints[4]), place)) - held;
+  joints[0] = place(0) + Scalar(table.centreX);
+  joints[1] = place(1) + Scalar(table.centreY);
+  joints[2] = place(2) + Scalar(table.centreZ);
+  return Outcome::Done;
 }
 
 /// Placing joints in radians; the tool joints stand in `joints`.
-Outcome placingJoints(const AnyKinematics &kinematics, const Vector<double> &point, Posture posture,
-                      const double *near, double *joints) {
-  const Vector<double> held = heldPoint(kinematics, joints);
-  Frame<double> pose{Matrix<double>::Identity(), point};
-  if (bends(kinematics)) {
-    const Bending bending = bendingOf(kinematics, held);
-    double reference[3];
-    double own[3];
-    bending.toArm(near, reference);
-    const Outcome outcome = bending.arm.inverse(pose, posture, reference, own);
-    if (outcome == Outcome::Done)
-      bending.fromArm(own, near, joints);
-    return outcome;
-  }
-  if (isScara(kinematics)) {
-    const Reaching reaching = reachingOf(kinematics, held);
-    const double reference[2] = {near[0], near[1] + reaching.aside};
-    const Outcome outcome = reaching.arms.inverse(pose, posture, reference, joints);
-    joints[1] -= reaching.aside;
-    if (kinematics.arm == ArmKind::Scara2Z)
-      joints[2] = point(2) - held(2);
-    else if (kinematics.arm == ArmKind::Scara3Z)
-      joints[3] = point(2) - held(2);
-    return outcome;
-  }
-  if (kinematics.arm == ArmKind::FiveAxisTable) {
-    const auto table = modelOf<FiveAxisTable>(kinematics.armMeasure);
-    const Matrix<double> turn = times(aboutZ(-joints[4]), aboutX(-joints[3]));
-    pose.place(2) += table.tableHeight;
-    const Vector<double> place = times(Matrix<double>(turn.transpose()), pose.place) - held;
-    joints[0] = place(0) + table.centreX;
-    joints[1] = place(1) + table.centreY;
-    joints[2] = place(2) + table.centreZ;
-    return Outcome::Done;
-  }
-  pose.place -= held; // the flange keeps its turn
-  return tableOf(kinematics.arm)
-      .numbers.inverse(kinematics.armMeasure, pose, posture, near, joints);
+template <class Scalar>
+Outcome placingJoints(const AnyKinematics &kinematics, const Vector<Scalar> &point, Posture posture,
+                      const double *near, Scalar *joints) {
+  const Vector<Scalar> held = heldPoint(kinematics, joints);
+  if (bends(kinematics))
+    return bendingOf(kinematics, held).inverse(point, posture, near, joints);
+  if (isScara(kinematics))
+    return placeScara(kinematics, held, point, posture, near, joints);
+  if (kinematics.arm == ArmKind::FiveAxisTable)
+    return placeTable(kinematics, held, point, joints);
+  // The flange keeps its turn.
+  const Frame<Scalar> pose = unturned(Vector<Scalar>(point - held));
+  const ArmTable &arm = tableOf(kinematics.arm);
+  if constexpr (__is_same(Scalar, double))
+    return arm.numbers.inverse(kinematics.armMeasure, pose, posture, near, joints);
+  else
+    return arm.jets.inverse(kinematics.armMeasure, pose, posture, near, joints);
 }
 
 /// What the joints of axes are: shifted and in radians.
-void toJoints(const AnyKinematics &kinematics, const double *axes, double *joints) {
+template <class Scalar>
+void toJoints(const AnyKinematics &kinematics, const Scalar *axes, unsigned which, Scalar *joints) {
   const unsigned turning = kinematics.turning();
   for (int i = 0; i < kinematics.joints(); ++i) {
-    joints[i] = axes[i] - kinematics.offset[i];
+    if ((which >> i & 1U) == 0)
+      continue;
+    joints[i] = axes[i] - Scalar(kinematics.offset[i]);
     if ((turning >> i & 1U) != 0)
-      joints[i] *= kDegree;
+      joints[i] = joints[i] * kDegree;
   }
 }
 
-/// How fast the tool's point goes when joints do by `moving`. [u]
-Vector<double> rateOf(const AnyKinematics &kinematics, const Jet<1> *moving) {
-  Frame<Jet<1>> end;
-  (void)ratesOf(kinematics, moving, end);
-  const Vector<Jet<1>> point = end.place + times(end.turn, toolPoint(kinematics));
-  return {point(0).c[1], point(1).c[1], point(2).c[1]};
-}
+constexpr unsigned kAllJoints = ~0U;
 
-/// How placing axes follow the tool's point, one after the other in the columns of the matrix
-/// before it is inverted; infinite or NaN in a singular pose. Of two axes only x and y count.
-/// `toolRate`: how fast the point goes with the tool axes alone. [u]
-Matrix<double> followOf(const AnyKinematics &kinematics, const Jet<3> *axes, unsigned toolAxes,
-                        Vector<double> &toolRate) {
-  const int count = kinematics.joints();
+double &numberIn(double &number) { return number; }
+double &numberIn(Jet<3> &number) { return number.c[0]; }
+
+template <class Scalar>
+Outcome placed(const AnyKinematics &kinematics, const Vector<Scalar> &point, Posture posture,
+               const double *reference, Scalar *axes) {
+  unsigned toolAxes = 0;
+  if (!kinematics.splits(toolAxes))
+    return Outcome::NotSet;
+  double near[kMostJoints];
+  Scalar joints[kMostJoints];
+  toJoints(kinematics, reference, kAllJoints, near);
+  toJoints(kinematics, axes, toolAxes, joints);
+  Outcome outcome = placingJoints(kinematics, point, posture, near, joints);
+  if (outcome != Outcome::Done)
+    return outcome;
   const unsigned turning = kinematics.turning();
-  Jet<1> moving[kMostJoints];
-  double scale[kMostJoints];
-  for (int i = 0; i < count; ++i) {
-    scale[i] = (turning >> i & 1U) != 0 ? kDegree : 1.0;
-    moving[i] = Jet<1>((axes[i].c[0] - kinematics.offset[i]) * scale[i]);
-    moving[i].c[1] = (toolAxes >> i & 1U) != 0 ? axes[i].c[1] * scale[i] : 0.0;
-  }
-  toolRate = rateOf(kinematics, moving);
-  for (int i = 0; i < count; ++i)
-    moving[i].c[1] = 0;
-  Matrix<double> columns = Matrix<double>::Identity();
-  int column = 0;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < kinematics.joints(); ++i) {
     if ((toolAxes >> i & 1U) != 0)
       continue;
-    moving[i].c[1] = scale[i];
-    columns.col(column++) = rateOf(kinematics, moving);
-    moving[i].c[1] = 0;
+    const bool turns = (turning >> i & 1U) != 0;
+    axes[i] = (turns ? joints[i] / kDegree : joints[i]) + Scalar(kinematics.offset[i]);
+    double &number = numberIn(axes[i]);
+    if (!exact::isfinite(number))
+      return Outcome::Unreachable;
+    if (!bringIntoRange(kinematics.range[i], turns, number))
+      outcome = Outcome::OutOfLimits;
   }
-  if (column == 2) {
-    columns.row(2).setZero();
-    columns(2, 2) = 1;
-  }
-  return columns.inverse();
+  return outcome;
 }
 
 } // namespace
@@ -235,84 +324,28 @@ bool AnyKinematics::splits(unsigned &toolAxes) const {
 
 Posture AnyKinematics::placingPostureOf(const double *axes) const {
   double joints[kMostJoints];
-  toJoints(*this, axes, joints);
+  toJoints(*this, axes, kAllJoints, joints);
   if (bends(*this)) {
-    const Bending bending = bendingOf(*this, heldPoint(*this, joints));
+    const Bending<double> its = bendingOf(*this, heldPoint(*this, joints));
     double own[3];
-    bending.toArm(joints, own);
-    return bending.arm.postureOf(own);
+    its.toArm(joints, own);
+    return ArmRrr{its.d1, its.a1, its.a2, its.d3, its.a3, its.d4}.postureOf(own);
   }
   if (isScara(*this)) {
-    const Reaching reaching = reachingOf(*this, heldPoint(*this, joints));
+    const Reaching<double> reaching = reachingOf(*this, heldPoint(*this, joints));
     const double own[2] = {joints[0], joints[1] + reaching.aside};
-    return reaching.arms.postureOf(own);
+    return Scara2{reaching.firstArm, reaching.secondArm}.postureOf(own);
   }
   return arm == ArmKind::FiveAxisTable ? Posture{} : tableOf(arm).postureOf(armMeasure, joints);
 }
 
 Outcome AnyKinematics::place(const Vector<double> &point, Posture posture, const double *reference,
                              double *axes) const {
-  unsigned toolAxes = 0;
-  if (!splits(toolAxes))
-    return Outcome::NotSet;
-  double near[kMostJoints];
-  double joint[kMostJoints];
-  toJoints(*this, reference, near);
-  const unsigned turns = turning();
-  for (int i = 0; i < joints(); ++i) {
-    joint[i] = near[i];
-    if ((toolAxes >> i & 1U) != 0)
-      joint[i] = (turns >> i & 1U) != 0 ? (axes[i] - offset[i]) * kDegree : axes[i] - offset[i];
-  }
-  Outcome outcome = placingJoints(*this, point, posture, near, joint);
-  if (outcome != Outcome::Done)
-    return outcome;
-  for (int i = 0; i < joints(); ++i) {
-    if ((toolAxes >> i & 1U) != 0)
-      continue;
-    const bool isTurning = (turns >> i & 1U) != 0;
-    axes[i] = (isTurning ? joint[i] / kDegree : joint[i]) + offset[i];
-    if (!exact::isfinite(axes[i]))
-      return Outcome::Unreachable;
-    if (!bringIntoRange(range[i], isTurning, axes[i]))
-      outcome = Outcome::OutOfLimits;
-  }
-  return outcome;
+  return placed(*this, point, posture, reference, axes);
 }
-
 Outcome AnyKinematics::place(const Vector<Jet<3>> &point, Posture posture, const double *reference,
                              Jet<3> *axes) const {
-  unsigned toolAxes = 0;
-  if (!splits(toolAxes))
-    return Outcome::NotSet;
-  const int count = joints();
-  double values[kMostJoints];
-  for (int i = 0; i < count; ++i)
-    values[i] = (toolAxes >> i & 1U) != 0 ? axes[i].c[0] : 0.0;
-  const Vector<double> now{point(0).c[0], point(1).c[0], point(2).c[0]};
-  const Outcome outcome = place(now, posture, reference, values);
-  if (outcome != Outcome::Done)
-    return outcome;
-  for (int i = 0; i < count; ++i)
-    if ((toolAxes >> i & 1U) == 0)
-      axes[i] = Jet<3>(values[i]);
-  Vector<double> rate;
-  const Matrix<double> follow = followOf(*this, axes, toolAxes, rate);
-  // What the placing axes lack of an order, they lack of the point's way, too, and nothing else.
-  for (int order = 1; order <= 3; ++order) {
-    Frame<Jet<3>> tool;
-    if (order > 1)
-      (void)forward(axes, tool);
-    Vector<double> rest;
-    for (int row = 0; row < 3; ++row)
-      rest(row) = point(row).c[order] - (order > 1 ? tool.place(row).c[order] : rate(row));
-    const Vector<double> more = times(follow, rest);
-    int column = 0;
-    for (int i = 0; i < count; ++i)
-      if ((toolAxes >> i & 1U) == 0)
-        axes[i].c[order] = more(column++);
-  }
-  return Outcome::Done;
+  return placed(*this, point, posture, reference, axes);
 }
 
 } // namespace stride::kinematics
