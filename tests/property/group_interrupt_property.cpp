@@ -43,8 +43,8 @@ void interrupt(std::unique_ptr<GroupMotion> &group) {
 /// One random job, as it goes without interruption, and with.
 class Comparison {
 public:
-  explicit Comparison(unsigned seed)
-      : jobs_(seed), list_(jobs_.make(5)), arm_(jobs_.machine().arm()) {}
+  explicit Comparison(unsigned seed, bool givesAxes)
+      : jobs_(seed, givesAxes), list_(jobs_.make(5)), arm_(jobs_.machine().arm()) {}
 
   /// False: the arm cannot follow the path.
   bool run() {
@@ -144,18 +144,21 @@ public:
   int interrupts() const { return interrupts_; }
 };
 
-TEST(GroupInterrupt, ContinuesAlongTheSamePath) {
+void interruptMany(unsigned seed, int cases, bool givesAxes) {
   int interrupts = 0;
   int followed = 0;
-  for (int i = 0; i < casesOf(40) && !HasFailure(); ++i) {
+  for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i);
-    Comparison comparison(70'000U + static_cast<unsigned>(i));
+    Comparison comparison(seed + static_cast<unsigned>(i), givesAxes);
     followed += comparison.run() ? 1 : 0;
     interrupts += comparison.interrupts();
   }
   printf("%d interrupts of %d paths\n", interrupts, followed);
-  EXPECT_GT(followed, casesOf(40) / 2);
+  EXPECT_GT(followed, cases / 2);
   EXPECT_GT(interrupts, 2 * followed);
 }
+
+TEST(GroupInterrupt, ContinuesAlongTheSamePath) { interruptMany(70'000, casesOf(40), false); }
+TEST(GroupInterrupt, ContinuesWhereToolAxesGoEvenly) { interruptMany(71'000, casesOf(16), true); }
 
 } // namespace

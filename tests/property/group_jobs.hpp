@@ -22,7 +22,11 @@ struct Job {
 
 class Jobs {
 public:
-  explicit Jobs(unsigned seed) : random_(seed), machine_(randomMachine(random_)) {
+  /// `givesAxes`: on lines the tool axes go evenly.
+  explicit Jobs(unsigned seed, bool givesAxes = false)
+      : random_(seed),
+        machine_(givesAxes ? randomMachineWithToolAxes(random_) : randomMachine(random_)),
+        given_(givesAxes ? toolAxesOf(machine_) : uint8_t{0}) {
     std::copy(std::begin(machine_.home), std::end(machine_.home), planned_);
   }
 
@@ -66,7 +70,7 @@ private:
     double to[kAxes];
     double perTime[kAxes];
     for (int k = 0; k < kAxes; ++k) {
-      const double spread = k < kArmAxes ? machine_.spread : 100;
+      const double spread = k < kArmAxes && !isGiven(given_, k) ? machine_.spread : 100;
       to[k] = isOfMachine(machine_, k) ? machine_.home[k] + random_.uniform(-1, 1) * spread : 0;
       perTime[k] = machine_.limits[k].velocity;
     }
@@ -75,14 +79,23 @@ private:
       more.from[k] = planned_[kArmAxes + k];
       more.to[k] = to[kArmAxes + k];
     }
-    job.leg = random_.chance(0.6) ? lineLeg(poseAt(planned_), poseAt(to), more)
-                                  : axesLeg(planned_, to, perTime, 300);
+    const kinematics::KinematicsRef kinematics = machine_.arm().kinematics;
+    const bool led = random_.chance(0.6);
+    const bool placed = given_ == 0 || kinematics.placingConfigurationOf(to) ==
+                                           kinematics.placingConfigurationOf(planned_);
+    job.leg = led && placed ? lineLeg(poseAt(planned_), poseAt(to), more)
+                            : axesLeg(planned_, to, perTime, 300);
+    if (given_ != 0 && leadsTool(job.leg)) {
+      giveToolAxes(job.leg, given_, planned_, to);
+      job.order.configuration = kinematics.placingConfigurationOf(planned_);
+    }
     std::copy(std::begin(to), std::end(to), planned_);
     return job;
   }
 
   Random random_;
   Machine machine_;
+  uint8_t given_;
   double planned_[kAxes];
 };
 
@@ -112,7 +125,9 @@ inline bool axesOn(const GroupMotion &group, const Arm &arm, double way,
     else
       placeAt(movement.leg, Series(std::fmin(movement.entry + along, movement.leg.length)), place);
     Series axes[kAxes];
-    if (axesAt(arm, place, near, axes) != Obstacle::None)
+    const Arm ordered{arm.kinematics, arm.joints, arm.more, arm.limits,
+                      movement.order.configuration};
+    if (axesAt(ordered, place, near, axes) != Obstacle::None)
       return false;
     for (int i = 0; i < kAxes; ++i)
       result[i] = axes[i].c[0];

@@ -79,6 +79,21 @@ inline Machine offsetWrist() {
   return machine;
 }
 
+/// A Scara whose tool is beside its turning axis.
+inline Machine scaraWithTool() {
+  Machine machine = scara();
+  machine.kinematics.setHand(kinematics::HandKind::TurningAxis,
+                             kinematics::TurningAxis{{120, 30, 10}});
+  return machine;
+}
+
+/// With a tool that is beside all axes of the wrist.
+inline Machine articulatedWithTool() {
+  Machine machine = articulated();
+  machine.kinematics.setHand(kinematics::HandKind::Wrist3, kinematics::Wrist3{{40, -30, 80}});
+  return machine;
+}
+
 } // namespace stride::test
 
 #endif // STRIDE_TESTS_PROPERTY_GROUP_MACHINES_HPP

@@ -31,8 +31,8 @@ class Comparison {
   static constexpr int kParts = 16; ///< Of a cycle, between which limits are looked at.
 
 public:
-  Comparison(unsigned seed, Habit habit)
-      : jobs_(seed), list_(jobs_.make(5)), arm_(jobs_.machine().arm()), habit_(habit),
+  Comparison(unsigned seed, Habit habit, bool givesAxes)
+      : jobs_(seed, givesAxes), list_(jobs_.make(5)), arm_(jobs_.machine().arm()), habit_(habit),
         cycle_(jobs_.random().magnitude(-3.3, -2.7)),
         every_(1 + jobs_.random().below(habit == Habit::Punctual ? 4 : 12)),
         keep_(seed % 3 == 0 ? 0.04 * (seed % 5) : 0),
@@ -259,7 +259,7 @@ int wanted(int cases) {
 }
 
 void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slower,
-             bool changes = false, bool slides = false) {
+             bool changes = false, bool slides = false, bool givesAxes = false) {
   const char *const only = std::getenv("STRIDE_GROUP_CASE");
   int stops = 0;
   int followed = 0;
@@ -267,7 +267,7 @@ void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slowe
   for (int i = only != nullptr ? std::atoi(only) : 0; i < cases && !testing::Test::HasFailure();
        ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i);
-    Comparison comparison(seed + static_cast<unsigned>(i), habit);
+    Comparison comparison(seed + static_cast<unsigned>(i), habit, givesAxes);
     comparison.disturbs(disturbs);
     comparison.changes(changes);
     comparison.slides(slides);
@@ -305,6 +305,12 @@ TEST(GroupPlanning, RestsWhereNothingIsPlannedAndGoesOn) {
 TEST(GroupPlanning, GoesOnWhoeverPlansFromNowOn) {
   double slower = 0;
   compare(Habit::Late, true, 83'000, wanted(40), slower, true);
+}
+
+/// As online changes do, where tool axes go evenly.
+TEST(GroupPlanning, GoesOnWhereToolAxesGoEvenly) {
+  double slower = 0;
+  compare(Habit::Late, true, 86'000, wanted(16), slower, true, false, true);
 }
 
 /// An override that changes all the time, with stops, whoever plans.

@@ -120,7 +120,19 @@ int16_t circularLeg(const GroupArm &arm, const Request &request, Ends &ends, gro
       wrong != 0)
     return wrong;
   constexpr int32_t kParts = 36;
-  return followLeg(arm.arm, leg, kParts, ends);
+  if (!givesToolAxes(request))
+    return followLeg(arm.arm, leg, kParts, ends);
+  const bool byPose = request.system != decl::SMC_COORD_SYSTEM__ACS;
+  if (!byPose) {
+    for (int32_t k = 0; k < arm.arm.joints; ++k)
+      ends.to[k] = (request.relative ? ends.from[k] : 0.0) + request.position[k];
+  } else if (const int16_t wrong =
+                 axesFor(arm.arm, target, arm.arm.kinematics.configurationOf(ends.from), ends.from,
+                         ends.to);
+             wrong != 0) {
+    return wrong;
+  }
+  return settleWithToolAxes(arm.arm, leg, kParts, byPose, ends);
 }
 
 } // namespace stride::robotics

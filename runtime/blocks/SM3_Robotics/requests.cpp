@@ -12,7 +12,6 @@
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
 #include "st/SM3_Robotics/SMC_GROUP_ADDITIONAL_MODE.h"
-#include "st/SM3_Robotics/SMC_ORIENTATION_MODE.h"
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 
 namespace stride::robotics {
@@ -44,8 +43,9 @@ int16_t wrongInput(const Request &request) noexcept {
   if (!isFactor(order.velocityFactor) || !isFactor(order.accelerationFactor) ||
       !isFactor(order.jerkFactor) || !isFactor(request.torqueFactor))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_FACTOR;
-  if (request.orientationMode != decl::SMC_ORIENTATION_MODE__GreatCircle)
-    return error::SMC_ERROR__SMC_CP_NO_AXIS_ORIENTATION;
+  if (request.orientationMode < decl::SMC_ORIENTATION_MODE__GreatCircle ||
+      request.orientationMode > decl::SMC_ORIENTATION_MODE__Axis)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
   const group::PathLimits &path = order.path;
   if (leadsTool(request) &&
       (!exact::isPositive(path.velocity) || !exact::isPositive(path.acceleration) ||
@@ -134,7 +134,7 @@ group::MoreAxes moreAxesOf(const Ends &ends) noexcept {
   return more;
 }
 
-int16_t linearLeg(const GroupArm &arm, Ends &ends, group::Leg &leg) {
+int16_t linearLeg(const GroupArm &arm, const Request &request, Ends &ends, group::Leg &leg) {
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
   Frame<double> from;
@@ -143,7 +143,10 @@ int16_t linearLeg(const GroupArm &arm, Ends &ends, group::Leg &leg) {
   if (arm.arm.kinematics.forward(ends.to, to) != Outcome::Done)
     return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
   leg = group::lineLeg(group::poseOf(from), group::poseOf(to), moreAxesOf(ends));
-  return settleLine(arm.arm, leg, ends);
+  constexpr int32_t kParts = 12;
+  const bool byPose = request.system != decl::SMC_COORD_SYSTEM__ACS;
+  return givesToolAxes(request) ? settleWithToolAxes(arm.arm, leg, kParts, byPose, ends)
+                                : settleLine(arm.arm, leg, kParts, ends);
 }
 
 /// The leg of a request from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
@@ -156,7 +159,7 @@ int16_t legOf(const GroupRef &group, const GroupArm &arm, const Request &request
   if (const int16_t wrong = findEnd(group, arm, request, ends); wrong != 0)
     return wrong;
   if (request.kind == RequestKind::Linear)
-    return linearLeg(arm, ends, leg);
+    return linearLeg(arm, request, ends, leg);
   double perTime[kAxes];
   for (int32_t k = 0; k < kAxes; ++k)
     perTime[k] = arm.arm.limits[k].velocity * request.order.velocityFactor *
@@ -189,7 +192,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   if (carried)
     order.configuration = arm.arm.kinematics.configurationOf(state.motion.axes);
   else if (group::leadsTool(leg))
-    order.configuration = arm.arm.kinematics.configurationOf(ends.from);
+    order.configuration = configurationFor(arm.arm, leg, ends.from);
   group::append(state.motion, request.id, leg, order);
   state.tolerance = request.tolerance;
   locateTriggers(state, arm.arm, request.id, leg);
@@ -216,7 +219,8 @@ void forget(GroupState &state) noexcept {
 
 /// Whether a request can come after the movements that the group has without rest and a new tool.
 bool canFollow(const GroupState &state, const Request &request) noexcept {
-  return group::hasRoom(state.motion) && isSame(state.tool, request.tool);
+  return group::hasRoom(state.motion) && isSame(state.tool, request.tool) &&
+         !(givesToolAxes(request) && group::isCarried(state.motion));
 }
 
 /// The group goes on with another tool, whose point is elsewhere.
@@ -357,6 +361,9 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
     return wrong;
   if (const int16_t wrong = noteSystem(group, request); wrong != 0)
     return wrong;
+  const bool inMovingTool = request.system == decl::SMC_COORD_SYSTEM__TCS && state.rides != 0;
+  if (givesToolAxes(request) && (request.carrier != 0 || inMovingTool))
+    return error::SMC_ERROR__SMC_CP_NO_AXIS_ORIENTATION_WITH_TRACKING;
   if (request.kind != RequestKind::Halt && !canRide(request) &&
       carrierOf(group, request.system) != 0)
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;

@@ -4,6 +4,8 @@
 
 #include "runtime/blocks/SM3_Robotics/frames.hpp"
 
+#include "st/SM3_Robotics/SMC_ORIENTATION_MODE.h"
+
 namespace stride::robotics {
 
 /// The pose that coordinates of a request mean, in a coordinate system, from the pose where it
@@ -87,9 +89,16 @@ void fail(GroupState &state, uint64_t id, int16_t error) noexcept;
 /// Whether the request that is the next one waits until the group is at rest on its path.
 bool demandsRest(const GroupState &state) noexcept;
 
+/// Whether the tool's own axes go evenly on a line or an arc.
+inline bool givesToolAxes(const Request &request) noexcept {
+  return request.orientationMode == ::st::SM3_Robotics::SMC_ORIENTATION_MODE__Axis &&
+         (request.kind == RequestKind::Linear || request.kind == RequestKind::Circular);
+}
+
 /// Whether a movement can be along a path in a system that moves.
 inline bool canRide(const Request &request) noexcept {
-  return request.kind == RequestKind::Linear || request.kind == RequestKind::Circular;
+  return (request.kind == RequestKind::Linear || request.kind == RequestKind::Circular) &&
+         !givesToolAxes(request);
 }
 
 /// Whether it is its turn, and it waits until the group does not follow a moving system any more.

@@ -18,9 +18,19 @@ double nearness(const group::Arm &arm, int32_t axis) {
                        arm.kinematics.turns(axis) ? kAngle : kPart * arm.kinematics.reach());
 }
 
-/// The arm in the configuration in which axes stand.
-group::Arm standing(const group::Arm &arm, const double *axes) {
-  return {arm.kinematics, arm.joints, arm.more, arm.limits, arm.kinematics.configurationOf(axes)};
+/// Axes that bring the tool to a place of a leg, which may give tool axes. An SMC_ERROR.
+int16_t axesOn(const group::Arm &arm, const group::PathPlace &place, const double *reference,
+               double *axes) {
+  const Frame<double> tool = group::valueOf(place.tool);
+  if (place.given == 0)
+    return axesFor(arm, tool, arm.configuration, reference, axes);
+  for (int32_t k = 0; k < kArmAxes; ++k)
+    if (group::isGiven(place.given, k))
+      axes[k] = place.axes[k].c[0];
+  const Outcome outcome = arm.kinematics.place(tool.place, arm.configuration, reference, axes);
+  if (outcome != Outcome::Done)
+    return kinematics::errorOf(outcome);
+  return reaches(arm, axes, tool.place) ? int16_t{0} : error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
 }
 
 /// The axes at a way along a leg, from where they are nearby. An SMC_ERROR.
@@ -29,9 +39,7 @@ int16_t stepTo(const group::Arm &arm, const group::Leg &leg, double way, double 
   group::PathPlace place;
   group::placeAt(leg, group::Series(way), place);
   double found[kAxes] = {};
-  if (const int16_t wrong =
-          axesFor(arm, group::valueOf(place.tool), arm.configuration, axes, found);
-      wrong != 0)
+  if (const int16_t wrong = axesOn(arm, place, axes, found); wrong != 0)
     return wrong;
   for (int32_t k = 0; k < arm.joints; ++k) {
     const group::AxisLimits &limits = arm.limits[k];
@@ -80,6 +88,17 @@ bool jumpBetween(const group::Arm &arm, const group::Leg &leg, double low, doubl
   return apart > kFar;
 }
 
+/// An angle, with the whole turns that bring it within limits, if any do. [°]
+double turnedWithin(const group::AxisLimits &limits, double angle) {
+  constexpr double kTurn = 360.0;
+  double turned = angle;
+  if (angle < limits.low)
+    turned += kTurn * exact::ceil((limits.low - angle) / kTurn);
+  else if (angle > limits.high)
+    turned -= kTurn * exact::ceil((angle - limits.high) / kTurn);
+  return turned >= limits.low && turned <= limits.high ? turned : angle;
+}
+
 } // namespace
 
 bool reaches(const group::Arm &arm, const double *axes, const Vector<double> &place) {
@@ -113,7 +132,8 @@ int16_t whyNotFrom(const group::Arm &arm, const double (&axes)[kAxes]) {
 }
 
 int16_t followLeg(const group::Arm &arm, const group::Leg &leg, int32_t parts, Ends &ends) {
-  const group::Arm follows = standing(arm, ends.from);
+  const group::Arm follows{arm.kinematics, arm.joints, arm.more, arm.limits,
+                           configurationFor(arm, leg, ends.from)};
   for (int32_t k = 0; k < kArmAxes; ++k)
     ends.to[k] = ends.from[k];
   // Where nothing decides an angle at the start, it may have to be another one at once.
@@ -138,13 +158,12 @@ int16_t followLeg(const group::Arm &arm, const group::Leg &leg, int32_t parts, E
   return 0;
 }
 
-int16_t settleLine(const group::Arm &arm, const group::Leg &leg, Ends &ends) {
+int16_t settleLine(const group::Arm &arm, const group::Leg &leg, int32_t parts, Ends &ends) {
   constexpr double kTurn = 360.0;
-  constexpr int32_t kParts = 12;
   if (leg.kind == group::LegKind::Axes || !(leg.length > 0.0))
     return 0;
   Ends followed = ends;
-  const int16_t wrong = followLeg(arm, leg, kParts, followed);
+  const int16_t wrong = followLeg(arm, leg, parts, followed);
   if (wrong == error::SMC_ERROR__SMC_AXIS_GROUP_SINGULAR_PATH)
     return wrong;
   if (wrong != 0)
@@ -158,6 +177,31 @@ int16_t settleLine(const group::Arm &arm, const group::Leg &leg, Ends &ends) {
       ends.to[k] = followed.to[k];
   }
   return 0;
+}
+
+int16_t settleWithToolAxes(const group::Arm &arm, group::Leg &leg, int32_t parts, bool anyTurn,
+                           Ends &ends) {
+  unsigned given = 0;
+  if (!arm.kinematics.splits(given))
+    return error::SMC_ERROR__SMC_CP_NO_AXIS_ORIENTATION;
+  if (given == 0) // the tool does not turn by axes of its own
+    return settleLine(arm, leg, parts, ends);
+  for (int32_t k = 0; k < kArmAxes && anyTurn; ++k)
+    if (group::isGiven(static_cast<uint8_t>(given), k) && arm.kinematics.turns(k))
+      ends.to[k] = turnedWithin(arm.limits[k], ends.to[k]);
+  group::giveToolAxes(leg, static_cast<uint8_t>(given), ends.from, ends.to);
+  const int16_t wrong = settleLine(arm, leg, parts, ends);
+  // Placing axes that would jump, or end in another configuration, would have to pass such a pose.
+  return wrong == error::SMC_ERROR__SMC_AXIS_GROUP_SINGULAR_PATH ||
+                 wrong == error::SMC_ERROR__SMC_CP_CONFIGS_DIFFER
+             ? error::SMC_ERROR__SMC_CP_AXIS_ORIENTATION_SINGULAR
+             : wrong;
+}
+
+kinematics::Configuration configurationFor(const group::Arm &arm, const group::Leg &leg,
+                                           const double *axes) {
+  return leg.given != 0 ? arm.kinematics.placingConfigurationOf(axes)
+                        : arm.kinematics.configurationOf(axes);
 }
 
 } // namespace stride::robotics

@@ -25,9 +25,19 @@ int16_t whyNotFrom(const group::Arm &arm, const double (&axes)[kAxes]);
 /// pose is an error, too. An SMC_ERROR.
 int16_t followLeg(const group::Arm &arm, const group::Leg &leg, int32_t parts, Ends &ends);
 
-/// Sees to it that ends.to is where the axes come to at the end of a line: whole turns may be
-/// others. An SMC_ERROR if nothing else than turns is.
-int16_t settleLine(const group::Arm &arm, const group::Leg &leg, Ends &ends);
+/// Sees to it that ends.to is where the axes come to at the end of a leg: whole turns may be
+/// others. An SMC_ERROR if nothing else than turns is. See followLeg for `parts`.
+int16_t settleLine(const group::Arm &arm, const group::Leg &leg, int32_t parts, Ends &ends);
+
+/// Lets the tool axes of a leg go evenly from ends.from to ends.to, and settles it. `anyTurn`: they
+/// may end whole turns away from ends.to, where their limits ask for that. An SMC_ERROR if the
+/// kinematics has no such axes, or if the placing ones would have to pass a singular pose.
+int16_t settleWithToolAxes(const group::Arm &arm, group::Leg &leg, int32_t parts, bool anyTurn,
+                           Ends &ends);
+
+/// The configuration that the axes keep along a leg on which the tool leads.
+kinematics::Configuration configurationFor(const group::Arm &arm, const group::Leg &leg,
+                                           const double *axes);
 
 } // namespace stride::robotics
 

@@ -203,6 +203,7 @@ constexpr KinematicsTable makeOwnTable() {
   };
   table.inverseJets = ownInverseJets;
   table.distanceFromSingular = [](const void *, const double *) { return 1.0; };
+  table.splits = [](const void *, unsigned &) { return false; };
   return table;
 }
 

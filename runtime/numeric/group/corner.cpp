@@ -192,8 +192,10 @@ Corner toolCorner(const Leg &before, double cutBefore, const Leg &after, double 
   corner.after = spinOf(after);
   corner.leaves = quintic({-cutBefore, speedBefore, 0.0}, {0.0, 0.0, 0.0});
   corner.enters = quintic({0.0, 0.0, 0.0}, {cutAfter, speedAfter, 0.0});
-  for (int32_t k = kArmAxes; k < kAxes; ++k)
-    corner.axes[k] = quintic(over(begin.axes[k], speedBefore), over(end.axes[k], speedAfter));
+  corner.given = before.given;
+  for (int32_t k = 0; k < kAxes; ++k)
+    if (k >= kArmAxes || isGiven(corner.given, k))
+      corner.axes[k] = quintic(over(begin.axes[k], speedBefore), over(end.axes[k], speedAfter));
   return corner;
 }
 
@@ -231,6 +233,10 @@ void placeAt(const Corner &corner, const Series &way, PathPlace &place) noexcept
     place.axes[k] = valueOf(corner.axes[k], u);
   if (!corner.byTool)
     return;
+  place.given = corner.given;
+  for (int32_t k = 0; k < kArmAxes && corner.given != 0; ++k)
+    if (isGiven(corner.given, k))
+      place.axes[k] = valueOf(corner.axes[k], u);
   putPoint(point, u, place.tool.place);
   place.tool.turn = turnAt(corner, u);
 }

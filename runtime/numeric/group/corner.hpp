@@ -32,6 +32,7 @@ struct Spin {
 /// Trivially copyable; made by the functions below.
 struct Corner {
   bool byTool;         ///< The tool leads; else the axes.
+  uint8_t given;       ///< If byTool: tool axes that are given by `axes`, as bits.
   bool byLength;       ///< The way is the length of its point's path.
   double length;       ///< Of the way along it.
   double first, last;  ///< u over the way at its start and at its end. [1/u]
@@ -41,11 +42,11 @@ struct Corner {
   Spin before, after;  ///< How the tool turns on the legs.
   Quintic leaves;      ///< a: way before the corner on the first leg.
   Quintic enters;      ///< b: way after the corner on the second leg.
-  Quintic axes[kAxes]; ///< The first kArmAxes only where they lead. [u]
+  Quintic axes[kAxes]; ///< The first kArmAxes only where they lead or are given. [u]
 };
 
-/// Between two legs on which the tool leads; 0 < cuts <= lengths. What the legs are beyond the
-/// corner is not looked at. [u]
+/// Between two legs on which the tool leads, with the same tool axes given, or none; 0 < cuts <=
+/// lengths. What the legs are beyond the corner is not looked at. [u]
 Corner toolCorner(const Leg &before, double cutBefore, const Leg &after, double cutAfter) noexcept;
 
 /// The axes at one end of a corner where they lead: series over the way of the leg there.

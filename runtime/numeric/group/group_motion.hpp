@@ -42,7 +42,7 @@ struct AxisShares {
 struct Order {
   PathLimits path;                                       ///< Where the tool leads.
   double velocityFactor, accelerationFactor, jerkFactor; ///< Of the axes' limits, above 0 up to 1.
-  kinematics::Configuration configuration;               ///< Where the tool leads.
+  kinematics::Configuration configuration;               ///< Where the tool leads: see Arm.
   Transition transition;
   double transitionValue; ///< See Transition.
   CornerSpeed cornerSpeed;

@@ -29,8 +29,14 @@ void setMoreAxes(Leg &leg, const MoreAxes &more) noexcept {
 double stillLength(const Leg &leg) noexcept {
   constexpr double kDegrees = 57.29577951308232;
   constexpr double kNothing = 1e-12; // [rad]
-  if (leg.angle > kNothing)
+  if (leg.given == 0 && leg.angle > kNothing)
     return kDegrees * leg.angle;
+  double square = 0.0;
+  for (int32_t k = 0; k < kArmAxes; ++k)
+    if (isGiven(leg.given, k))
+      square += leg.delta[k] * leg.delta[k];
+  if (square > 0.0)
+    return exact::sqrt(square);
   double most = 0.0;
   for (int32_t k = kArmAxes; k < kAxes; ++k)
     most = larger(most, fabs(leg.delta[k]));
@@ -82,6 +88,20 @@ Leg circleLeg(const Pose &from, const Arc &arc, const Pose &to, const MoreAxes &
   return leg;
 }
 
+void giveToolAxes(Leg &leg, uint8_t given, const double (&from)[kAxes],
+                  const double (&to)[kAxes]) noexcept {
+  leg.given = given;
+  leg.angle = 0.0;
+  for (int32_t k = 0; k < kArmAxes; ++k) {
+    if (!isGiven(given, k))
+      continue;
+    leg.from[k] = from[k];
+    leg.delta[k] = to[k] - from[k];
+  }
+  if (leg.kind == LegKind::Turn)
+    leg.length = stillLength(leg);
+}
+
 Leg axesLeg(const double (&from)[kAxes], const double (&to)[kAxes], const double (&perTime)[kAxes],
             double speed) noexcept {
   Leg leg{};
@@ -107,6 +127,10 @@ void placeAt(const Leg &leg, const Series &way, PathPlace &place) noexcept {
     return;
   place.tool.place =
       leg.kind == LegKind::Circle ? alongCircle(leg, way) : alongLine(leg.start, leg.first, way);
+  place.given = leg.given;
+  for (int32_t k = 0; k < kArmAxes && leg.given != 0; ++k)
+    if (isGiven(leg.given, k))
+      place.axes[k] = Series(leg.from[k]) + leg.delta[k] * part;
   place.tool.turn = turnedOn(leg.about, part * leg.angle, leg.turn);
 }
 

@@ -80,6 +80,16 @@ Pace paceOfTurn(const Matrix<Series> &turn) noexcept {
   return pace;
 }
 
+/// How fast tool axes go that are given, all together. [°]
+Pace paceOfGiven(const PathPlace &place) noexcept {
+  Series axes[kArmAxes];
+  int count = 0;
+  for (int32_t k = 0; k < kArmAxes; ++k)
+    if (isGiven(place.given, k))
+      axes[count++] = place.axes[k];
+  return paceOf(productsOf(axes, count));
+}
+
 /// How fast the tool's point moves, and in a corner where that stops or starts, how fast it turns.
 /// [u], [°]
 void setPaces(const PathPlace &place, Sample &sample) noexcept {
@@ -95,9 +105,13 @@ void setPaces(const PathPlace &place, Sample &sample) noexcept {
     return;
   }
   constexpr double kDegrees = 57.29577951308232;
-  pace[1] = paceOfTurn(place.tool.turn);
-  for (double &d : pace[1].d)
-    d *= kDegrees;
+  if (place.given != 0) {
+    pace[1] = paceOfGiven(place);
+  } else {
+    pace[1] = paceOfTurn(place.tool.turn);
+    for (double &d : pace[1].d)
+      d *= kDegrees;
+  }
   pace[2] = {{1.0, 0.0, 0.0}};
 }
 
@@ -396,7 +410,13 @@ Obstacle axesAt(const Arm &arm, const PathPlace &place, const double (&reference
     axes[k] = place.axes[k];
   if (place.byTool) {
     using kinematics::Outcome;
-    const Outcome outcome = arm.kinematics.inverse(place.tool, arm.configuration, reference, axes);
+    for (int32_t k = 0; k < kArmAxes && place.given != 0; ++k)
+      if (isGiven(place.given, k))
+        axes[k] = place.axes[k];
+    const Outcome outcome =
+        place.given != 0
+            ? arm.kinematics.place(place.tool.place, arm.configuration, reference, axes)
+            : arm.kinematics.inverse(place.tool, arm.configuration, reference, axes);
     if (outcome != Outcome::Done)
       return outcome == Outcome::OutOfLimits ? Obstacle::AxisLimit : Obstacle::Unreachable;
   }

@@ -34,7 +34,8 @@ struct Arm {
   int32_t joints;                          ///< Of the kinematics, at most kArmAxes.
   int32_t more;                            ///< Axes that go along, at most kMoreAxes.
   const AxisLimits (&limits)[kAxes];       ///< Of those that it has.
-  kinematics::Configuration configuration; ///< Along what the tool leads.
+  kinematics::Configuration configuration; ///< Along what the tool leads; where tool axes are
+                                           ///< given, that of the placing ones.
 };
 
 /// Why there is no motion along a part of the path.

@@ -182,7 +182,7 @@ bool makeCorner(const GroupMotion &group, const Arm &arm, const Movement &before
   if (!(cuts.before > kLeastCut * before.leg.length) ||
       !(cuts.after > kLeastCut * after.leg.length) || turnsRound(before.leg, after.leg))
     return false;
-  if (leadsTool(before.leg) && leadsTool(after.leg)) {
+  if (leadsTool(before.leg) && leadsTool(after.leg) && before.leg.given == after.leg.given) {
     after.corner = toolCorner(before.leg, cuts.before, after.leg, cuts.after);
     return exact::isPositive(after.corner.length) && after.corner.length < kInfinity;
   }

@@ -28,6 +28,10 @@ inline Series growing(double way, double rate) noexcept {
   return series;
 }
 
+inline bool isGiven(uint8_t given, int32_t k) noexcept {
+  return (static_cast<unsigned>(given) >> static_cast<unsigned>(k) & 1U) != 0;
+}
+
 inline bool isZero(const Series &series) noexcept {
   return series.c[0] == 0.0 && series.c[1] == 0.0 && series.c[2] == 0.0 && series.c[3] == 0.0;
 }
@@ -137,10 +141,12 @@ inline Matrix<Series> turnedOn(const Vector3 &about, const Series &angle,
 /// the axes that go along are always said.
 struct PathPlace {
   bool byTool;
+  uint8_t given = 0;  ///< If byTool: tool axes that are said in `axes`, as bits, so that only
+                      ///< the tool's point counts besides, and not how it is turned.
   bool alsoTurns;     ///< If byTool: its point stops or starts, so that the way and how the tool
                       ///< turns count besides how far the point goes. [°]
   Frame<Series> tool; ///< If byTool.
-  Series axes[kAxes]; ///< The first kArmAxes unless byTool. [u]
+  Series axes[kAxes]; ///< The first kArmAxes unless byTool; those that are given. [u]
 };
 
 } // namespace stride::group

@@ -1,5 +1,6 @@
 #include "runtime/numeric/kinematics/any_kinematics.hpp"
 
+#include "runtime/numeric/kinematics/any_parts.hpp"
 #include "runtime/numeric/kinematics/hands.hpp"
 #include "runtime/numeric/kinematics/motion_of_joints.hpp"
 #include "runtime/numeric/quarter_turns.hpp"
@@ -20,17 +21,6 @@ template <class Scalar> const HandFunctions<Scalar> &functionsOf(const HandTable
     return table.numbers;
   else
     return table.jets;
-}
-
-/// The tool's frame in that of the last joint.
-Frame<double> toolOf(const AnyKinematics &kinematics) {
-  Frame<double> tool;
-  for (int row = 0; row < 3; ++row) {
-    tool.place(row) = kinematics.toolPlace[row];
-    for (int column = 0; column < 3; ++column)
-      tool.turn(row, column) = kinematics.toolTurn[row][column];
-  }
-  return tool;
 }
 
 /// The numbers of one kind of scalar for both parts of a kinematics, joints in radians.
@@ -195,24 +185,6 @@ bool toolFits(const AnyKinematics &kinematics) {
   return alongZ && (arm.upright || place[2] == 0);
 }
 
-/// An angle of an axis, with the whole turns that bring it within its range; what is nearest to the
-/// reference is nearest to the angle itself, which is within half a turn of it. A billionth beyond
-/// a limit is rounding.
-bool bringIntoRange(const JointRange &range, bool turns, double &angle) {
-  if (!range.limited)
-    return true;
-  constexpr double kRounding = 1e-9;
-  double placed = angle;
-  if (turns && placed < range.lower - kRounding)
-    placed += 360 * exact::ceil((range.lower - kRounding - placed) / 360);
-  else if (turns && placed > range.upper + kRounding)
-    placed -= 360 * exact::ceil((placed - range.upper - kRounding) / 360);
-  if (!(placed >= range.lower - kRounding && placed <= range.upper + kRounding))
-    return false;
-  angle = placed < range.lower ? range.lower : (placed > range.upper ? range.upper : placed);
-  return true;
-}
-
 double &valueIn(double &number) { return number; }
 double &valueIn(Jet<3> &number) { return number.c[0]; }
 
@@ -272,14 +244,6 @@ Outcome inverseOf(const AnyKinematics &kinematics, const Frame<Scalar> &tool, Po
 using AnyJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, kMostJoints>;
 using AnySquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
                                 kMostJoints, kMostJoints>;
-
-Outcome ratesOf(const AnyKinematics &kinematics, const Jet<1> *joints, Frame<Jet<1>> &end) {
-  const ArmTable &arm = tableOf(kinematics.arm);
-  const Outcome outcome = arm.rates(kinematics.armMeasure, joints, end);
-  if (kinematics.hand != HandKind::None)
-    end = end * tableOf(kinematics.hand).rates(kinematics.handMeasure, joints + arm.joints);
-  return outcome;
-}
 
 /// As jacobianOf and ownRows do with a model: the rows that the joints answer for.
 Outcome ownJacobian(const AnyKinematics &kinematics, const double *joints, AnySquare &own) {
@@ -352,6 +316,21 @@ constexpr KinematicsTable makeTable() {
   };
   table.distanceFromSingular = [](const void *kinematics, const double *joints) {
     return self(kinematics).distanceFromSingular(joints);
+  };
+  table.splits = [](const void *kinematics, unsigned &toolAxes) {
+    return self(kinematics).splits(toolAxes);
+  };
+  table.placingConfigurationOf = [](const void *kinematics, const double *joints) {
+    return configurationOf(self(kinematics).placingPostureOf(joints));
+  };
+  table.place = [](const void *kinematics, const Vector<double> &point,
+                   const Configuration &configuration, const double *reference, double *joints) {
+    return self(kinematics).place(point, postureOf(configuration), reference, joints);
+  };
+  table.placeJets = [](const void *kinematics, const Vector<Jet<3>> &point,
+                       const Configuration &configuration, const double *reference,
+                       Jet<3> *joints) {
+    return self(kinematics).place(point, postureOf(configuration), reference, joints);
   };
   return table;
 }

@@ -57,6 +57,13 @@ struct AnyKinematics {
   Outcome inverse(const Frame<Jet<3>> &tool, Posture posture, const double *reference,
                   Jet<3> *axes) const;
   [[nodiscard]] double distanceFromSingular(const double *axes) const;
+  bool splits(unsigned &toolAxes) const;
+  /// The posture of the placing axes, whose arm ends in the tool's point as it is held now.
+  [[nodiscard]] Posture placingPostureOf(const double *axes) const;
+  Outcome place(const Vector<double> &point, Posture posture, const double *reference,
+                double *axes) const;
+  Outcome place(const Vector<Jet<3>> &point, Posture posture, const double *reference,
+                Jet<3> *axes) const;
 
   /// How it looks to a group. For the time of a call.
   [[nodiscard]] KinematicsRef ref() const noexcept;

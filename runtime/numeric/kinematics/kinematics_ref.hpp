@@ -37,6 +37,13 @@ struct KinematicsTable {
                          const Configuration &configuration, const double *reference,
                          Jet<3> *joints);
   double (*distanceFromSingular)(const void *kinematics, const double *joints);
+  /// What follows is asked for only where this is true.
+  bool (*splits)(const void *kinematics, unsigned &toolAxes);
+  Configuration (*placingConfigurationOf)(const void *kinematics, const double *joints);
+  Outcome (*place)(const void *kinematics, const Vector<double> &point,
+                   const Configuration &configuration, const double *reference, double *joints);
+  Outcome (*placeJets)(const void *kinematics, const Vector<Jet<3>> &point,
+                       const Configuration &configuration, const double *reference, Jet<3> *joints);
 };
 
 /// A kinematics for the time of a call: never kept in a state, since it holds addresses.
@@ -83,6 +90,26 @@ public:
   /// 0 in a singular pose.
   [[nodiscard]] double distanceFromSingular(const double *joints) const {
     return table_->distanceFromSingular(kinematics_, joints);
+  }
+
+  /// Whether some axes, the placing ones, bring the tool's point anywhere while others, the tool
+  /// axes, stay. `toolAxes`: which these are, as bits; 0: there are none.
+  bool splits(unsigned &toolAxes) const { return table_->splits(kinematics_, toolAxes); }
+  /// Which of the ways the placing axes take to bring the tool's point where it is, as the tool
+  /// axes hold it. Of one that splits, as all below.
+  [[nodiscard]] Configuration placingConfigurationOf(const double *joints) const {
+    return table_->placingConfigurationOf(kinematics_, joints);
+  }
+  /// Placing axes that bring the tool's point somewhere [u]; the tool axes are given. As `inverse`.
+  Outcome place(const Vector<double> &point, const Configuration &configuration,
+                const double *reference, double *joints) const {
+    return table_->place(kinematics_, point, configuration, reference, joints);
+  }
+  /// The same with the first three derivatives. They are infinite or NaN where the placing axes are
+  /// in a singular pose.
+  Outcome place(const Vector<Jet<3>> &point, const Configuration &configuration,
+                const double *reference, Jet<3> *joints) const {
+    return table_->placeJets(kinematics_, point, configuration, reference, joints);
   }
 
 private:

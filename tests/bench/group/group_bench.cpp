@@ -8,8 +8,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -32,10 +34,11 @@ template <class Call> double timeOf(Call call) {
 /// A group that goes around a polygon of lines, with corners.
 class Round {
 public:
-  /// `turns`: the tool turns on the lines, as far as the machine can.
-  Round(Machine machine, bool turns)
-      : machine_(machine), turns_(turns), group_(std::make_unique<GroupMotion>()),
-        planning_(std::make_unique<GroupPlanning>()),
+  /// `turns`: the tool turns on the lines, as far as the machine can. `givesAxes`: by tool axes
+  /// that go evenly.
+  Round(Machine machine, bool turns, bool givesAxes = false)
+      : machine_(machine), turns_(turns), given_(givesAxes ? toolAxesOf(machine_) : 0U),
+        group_(std::make_unique<GroupMotion>()), planning_(std::make_unique<GroupPlanning>()),
         configuration_(machine_.kinematics.ref().configurationOf(machine_.home)) {
     for (AxisLimits &limits : machine_.limits)
       limits = {300, 3000, 60000, -1e4, 1e4};
@@ -44,6 +47,9 @@ public:
     (void)machine_.kinematics.forward(machine_.home, frame);
     last_ = poseOf(frame);
     middle_ = last_;
+    std::copy(std::begin(machine_.home), std::end(machine_.home), lastAxes_);
+    if (given_ != 0)
+      configuration_ = machine_.kinematics.ref().placingConfigurationOf(machine_.home);
   }
 
   /// One cycle in two parts; there are always lines to go on with.
@@ -81,6 +87,12 @@ public:
   bool failed() const { return group_->obstacle != Obstacle::None; }
 
 private:
+  static unsigned toolAxesOf(const Machine &machine) {
+    unsigned given = 0;
+    (void)machine.kinematics.splits(given);
+    return given;
+  }
+
   Arm arm() const {
     return {machine_.kinematics.ref(), machine_.joints, 0, machine_.limits, configuration_};
   }
@@ -112,17 +124,31 @@ private:
     order.configuration = configuration_;
     order.transition = Transition::Distance;
     order.transitionValue = 15;
-    append(*group_, drawId(*group_), lineLeg(last_, to, {}), order);
+    Leg leg = lineLeg(last_, to, {});
+    if (given_ != 0)
+      giveAxes(to, leg);
+    append(*group_, drawId(*group_), leg, order);
     last_ = to;
+  }
+
+  /// The axes of the tool go to where they are in a pose.
+  void giveAxes(const Pose &to, Leg &leg) {
+    double axes[kAxes]{};
+    (void)machine_.kinematics.ref().inverse(
+        frameOf(to), machine_.kinematics.ref().configurationOf(machine_.home), lastAxes_, axes);
+    giveToolAxes(leg, static_cast<uint8_t>(given_), lastAxes_, axes);
+    std::copy(std::begin(axes), std::end(axes), lastAxes_);
   }
 
   Machine machine_;
   bool turns_;
+  unsigned given_;
   std::unique_ptr<GroupMotion> group_;
   std::unique_ptr<GroupPlanning> planning_;
   stride::kinematics::Configuration configuration_;
   Pose last_{};
   Pose middle_{};
+  double lastAxes_[kAxes]{};
   double angle_ = 0;
   uint64_t seen_ = 0;
   uint64_t corners_ = 0;
@@ -170,7 +196,7 @@ void cyclesOfAGroup(benchmark::State &state) {
   uint64_t lines = 0;
   uint64_t corners = 0;
   for (auto _ : state) {
-    Round round(machineOf(state.range(0)), state.range(1) != 0);
+    Round round(machineOf(state.range(0)), state.range(1) != 0, state.range(1) == 2);
     double total = 0;
     for (size_t i = 0; i < kCycles; ++i) {
       const double thought = timeOf([&] { round.think(); });
@@ -198,6 +224,7 @@ void cyclesOfAGroup(benchmark::State &state) {
 }
 BENCHMARK(cyclesOfAGroup)
     ->ArgsProduct({{0, 1, 2, 3}, {0, 1}})
+    ->ArgsProduct({{1, 2, 3}, {2}}) // by tool axes that go evenly
     ->ArgNames({"machine", "turns"})
     ->UseManualTime()
     ->Iterations(5);
