@@ -14,15 +14,60 @@ using namespace parabolic;
 constexpr double kUnlimited = 0x1p400;
 constexpr double kUnlimitedJerk = 0x1p1000;
 
-/// Puts phases, in scaled units and in the direction `sign`, into a profile.
-class Builder {
+/// Units in which a problem's numbers are near 1: to them, and back to the user's.
+class ScaledUnits {
 public:
-  Builder(Profile &profile, const Scale &scale, const State &start) noexcept
-      : profile_(profile), next_(profile.segments), length_(scale.length),
-        velocity_(scale.velocity), acceleration_(scale.acceleration),
-        jerk_(scale.acceleration - scale.time), time_(scale.time),
-        place_(start.position), state_{0.0, exact::ldexp(start.velocity, -scale.velocity),
-                                       exact::ldexp(start.acceleration, -scale.acceleration)} {}
+  using Factor = PowerOfTwo;
+  explicit ScaledUnits(const Scale &scale) noexcept : scale_(scale) {}
+  [[nodiscard]] PowerOfTwo length() const noexcept { return PowerOfTwo(scale_.length); }
+  [[nodiscard]] PowerOfTwo velocity() const noexcept { return PowerOfTwo(scale_.velocity); }
+  [[nodiscard]] PowerOfTwo acceleration() const noexcept { return PowerOfTwo(scale_.acceleration); }
+  [[nodiscard]] PowerOfTwo jerk() const noexcept {
+    return PowerOfTwo(scale_.acceleration - scale_.time);
+  }
+  [[nodiscard]] PowerOfTwo time() const noexcept { return PowerOfTwo(scale_.time); }
+  [[nodiscard]] PowerOfTwo perLength() const noexcept { return PowerOfTwo(-scale_.length); }
+  [[nodiscard]] PowerOfTwo perVelocity() const noexcept { return PowerOfTwo(-scale_.velocity); }
+  [[nodiscard]] PowerOfTwo perAcceleration() const noexcept {
+    return PowerOfTwo(-scale_.acceleration);
+  }
+  [[nodiscard]] PowerOfTwo perJerk() const noexcept {
+    return PowerOfTwo(scale_.time - scale_.acceleration);
+  }
+
+private:
+  Scale scale_;
+};
+
+/// The user's units. They do where all numbers are middling: scaling by powers of two would change
+/// no digit.
+class UserUnits {
+public:
+  struct Factor {
+    double operator()(double x) const noexcept { return x; }
+  };
+  [[nodiscard]] static Factor length() noexcept { return {}; }
+  [[nodiscard]] static Factor velocity() noexcept { return {}; }
+  [[nodiscard]] static Factor acceleration() noexcept { return {}; }
+  [[nodiscard]] static Factor jerk() noexcept { return {}; }
+  [[nodiscard]] static Factor time() noexcept { return {}; }
+  [[nodiscard]] static Factor perLength() noexcept { return {}; }
+  [[nodiscard]] static Factor perVelocity() noexcept { return {}; }
+  [[nodiscard]] static Factor perAcceleration() noexcept { return {}; }
+  [[nodiscard]] static Factor perJerk() noexcept { return {}; }
+};
+
+/// Puts phases, in scaled units and in the direction `sign`, into a profile.
+template <class Units> class Builder {
+  using Factor = typename Units::Factor;
+
+public:
+  Builder(Profile &profile, const Units &units, const State &start) noexcept
+      : profile_(profile), next_(profile.segments), length_(units.length()),
+        velocity_(units.velocity()), acceleration_(units.acceleration()), jerk_(units.jerk()),
+        time_(units.time()),
+        place_(start.position), state_{0.0, units.perVelocity()(start.velocity),
+                                       units.perAcceleration()(start.acceleration)} {}
 
   /// Goes on with a phase.
   void forward(const Phase &phase, double sign) noexcept {
@@ -126,11 +171,11 @@ private:
   Profile &profile_;
   Segment *next_;
   double duration_ = 0.0;
-  PowerOfTwo length_; ///< The units of the scaled problem.
-  PowerOfTwo velocity_;
-  PowerOfTwo acceleration_;
-  PowerOfTwo jerk_;
-  PowerOfTwo time_;
+  [[no_unique_address]] Factor length_; ///< The units of the scaled problem.
+  [[no_unique_address]] Factor velocity_;
+  [[no_unique_address]] Factor acceleration_;
+  [[no_unique_address]] Factor jerk_;
+  [[no_unique_address]] Factor time_;
   double place_; ///< Where the axis is. [u]
   State state_;  ///< How it moves there; its position is 0.
 };
@@ -142,14 +187,14 @@ struct Limits {
   double deceleration;
   double jerk;
 
-  Limits(const JerkLimits &limits, const Scale &scale) noexcept
-      : jerk(scaled(limits.jerk, PowerOfTwo(scale.time - scale.acceleration), kUnlimitedJerk)) {
-    const PowerOfTwo perVelocity(-scale.velocity);
-    const PowerOfTwo perAcceleration(-scale.acceleration);
-    velocity = scaled(limits.velocity, perVelocity);
-    acceleration = scaled(limits.acceleration, perAcceleration);
-    deceleration = scaled(limits.deceleration, perAcceleration);
-  }
+  Limits(const JerkLimits &limits, const ScaledUnits &units) noexcept
+      : velocity(scaled(limits.velocity, units.perVelocity())),
+        acceleration(scaled(limits.acceleration, units.perAcceleration())),
+        deceleration(scaled(limits.deceleration, units.perAcceleration())),
+        jerk(scaled(limits.jerk, units.perJerk(), kUnlimitedJerk)) {}
+  Limits(const JerkLimits &limits, const UserUnits & /*same*/) noexcept
+      : velocity(limits.velocity), acceleration(limits.acceleration),
+        deceleration(limits.deceleration), jerk(limits.jerk) {}
 
   /// For velocities in the direction of motion.
   [[nodiscard]] Rates ahead() const noexcept { return {acceleration, deceleration, jerk}; }
@@ -193,9 +238,10 @@ Scale scaleOf(double distance, const State &start, double endVelocity,
 }
 
 /// What is rounding of a way in scaled units.
-double noiseOf(const State &start, double target, double way, const Scale &scale) noexcept {
+template <class Units>
+double noiseOf(const State &start, double target, double way, const Units &units) noexcept {
   const double places = exact::larger(exact::fabs(start.position), exact::fabs(target));
-  return 16.0 * kEpsilon * (PowerOfTwo(-scale.length)(places) + exact::fabs(way));
+  return 16.0 * kEpsilon * (units.perLength()(places) + exact::fabs(way));
 }
 
 PlanError result(bool representable) noexcept {
@@ -203,7 +249,8 @@ PlanError result(bool representable) noexcept {
 }
 
 /// The axis stands; goes on to `target`, which is `distance` away, with `endVelocity` there.
-void moveFromRest(Builder &builder, double distance, double target, double endVelocity,
+template <class Units>
+void moveFromRest(Builder<Units> &builder, double distance, double target, double endVelocity,
                   const Limits &limits, double noise) noexcept {
   const double side = endVelocity != 0.0 ? exact::signOf(endVelocity) : exact::signOf(distance);
   const double speed = side * endVelocity;
@@ -232,7 +279,8 @@ void moveFromRest(Builder &builder, double distance, double target, double endVe
 
 /// The motion between different rates for rising and falling: they hold for the magnitude of the
 /// velocity, so its sign may change only at rest.
-void moveOnOneSide(Builder &builder, const State &state, double distance, double target,
+template <class Units>
+void moveOnOneSide(Builder<Units> &builder, const State &state, double distance, double target,
                    double endVelocity, const Limits &limits, double noise) noexcept {
   const double side =
       state.velocity != 0.0 ? exact::signOf(state.velocity) : exact::signOf(state.acceleration);
@@ -242,9 +290,11 @@ void moveOnOneSide(Builder &builder, const State &state, double distance, double
     Task task = {velocity,        acceleration, side * distance, side * endVelocity,
                  limits.velocity, 0.0,          limits.ahead(),  noise};
     const double back = -task.endVelocity; // at the target
-    const VelocityChange runUp(0.0, 0.0, back, limits.ahead());
-    const double runUpWay = back > 0.0 ? runUp.distance(0.0, 0.0, back) : 0.0;
+    VelocityChange runUp;
+    double runUpWay = 0.0;
     if (back > 0.0) { // first as far as the run-up needs
+      runUp = VelocityChange(0.0, 0.0, back, limits.ahead());
+      runUpWay = runUp.distance(0.0, 0.0, back);
       task.distance += runUpWay;
       task.endVelocity = 0.0;
     }
@@ -263,10 +313,49 @@ void moveOnOneSide(Builder &builder, const State &state, double distance, double
                endVelocity, limits, noise);
 }
 
+/// planParabolic where there is something to do and all can be represented.
+template <class Units>
+bool planTo(Profile &profile, const State &start, double target, double endVelocity,
+            const JerkLimits &limits, const Units &units) noexcept {
+  const Limits scaled(limits, units);
+  Builder<Units> builder(profile, units, start);
+  const State &state = builder.state();
+  const double way = units.perLength()(target - start.position);
+  const double last = units.perVelocity()(endVelocity);
+  const double noise = noiseOf(start, target, way, units);
+  if (scaled.acceleration == scaled.deceleration) {
+    Route route;
+    (void)findRoute(route, {state.velocity, state.acceleration, way, last, scaled.velocity,
+                            -scaled.velocity, scaled.ahead(), noise});
+    builder.route(route, 1.0, target, last);
+  } else if (state.velocity == 0.0 && state.acceleration == 0.0) {
+    moveFromRest(builder, way, target, last, scaled, noise);
+  } else {
+    moveOnOneSide(builder, state, way, target, last, scaled, noise);
+  }
+  return builder.finish(start.position, endVelocity);
+}
+
+/// Whether the user's units do: all numbers are valid then, too.
+bool isMiddling(const State &start, double target, double endVelocity,
+                const JerkLimits &limits) noexcept {
+  constexpr double kLarge = 0x1p48;
+  const double sum =
+      (exact::fabs(start.position) + exact::fabs(target)) +
+      (exact::fabs(start.velocity) + exact::fabs(endVelocity)) + exact::fabs(start.acceleration) +
+      ((limits.velocity + limits.acceleration) + (limits.deceleration + limits.jerk));
+  const double least = exact::smaller(exact::smaller(limits.velocity, limits.acceleration),
+                                      exact::smaller(limits.deceleration, limits.jerk));
+  return sum < kLarge && least > 1.0 / kLarge &&
+         exact::fabs(target - start.position) > 1.0 / kLarge;
+}
+
 } // namespace
 
 PlanError planParabolic(Profile &profile, const State &start, double target, double endVelocity,
                         const JerkLimits &limits) noexcept {
+  if (__builtin_expect(isMiddling(start, target, endVelocity, limits), 1))
+    return result(planTo(profile, start, target, endVelocity, limits, UserUnits()));
   clear(profile, start.position);
   if (!areFinite(start, target, endVelocity))
     return PlanError::InvalidState;
@@ -279,25 +368,8 @@ PlanError planParabolic(Profile &profile, const State &start, double target, dou
     profile.end = {target, endVelocity, 0.0};
     return PlanError::None;
   }
-
-  const Scale scale = scaleOf(distance, start, endVelocity, limits);
-  const Limits scaled(limits, scale);
-  Builder builder(profile, scale, start);
-  const State &state = builder.state();
-  const double way = PowerOfTwo(-scale.length)(distance);
-  const double last = PowerOfTwo(-scale.velocity)(endVelocity);
-  const double noise = noiseOf(start, target, way, scale);
-  if (scaled.acceleration == scaled.deceleration) {
-    Route route;
-    (void)findRoute(route, {state.velocity, state.acceleration, way, last, scaled.velocity,
-                            -scaled.velocity, scaled.ahead(), noise});
-    builder.route(route, 1.0, target, last);
-  } else if (state.velocity == 0.0 && state.acceleration == 0.0) {
-    moveFromRest(builder, way, target, last, scaled, noise);
-  } else {
-    moveOnOneSide(builder, state, way, target, last, scaled, noise);
-  }
-  return result(builder.finish(start.position, endVelocity));
+  const ScaledUnits units(scaleOf(distance, start, endVelocity, limits));
+  return result(planTo(profile, start, target, endVelocity, limits, units));
 }
 
 PlanError planParabolicVelocity(Profile &profile, const State &start, double velocity,
@@ -309,8 +381,9 @@ PlanError planParabolicVelocity(Profile &profile, const State &start, double vel
     return PlanError::InvalidLimit;
 
   const Scale scale = scaleOf(0.0, start, velocity, limits);
-  const Limits scaled(limits, scale);
-  Builder builder(profile, scale, start);
+  const ScaledUnits units(scale);
+  const Limits scaled(limits, units);
+  Builder<ScaledUnits> builder(profile, units, start);
   const State &state = builder.state();
   const double last = exact::ldexp(velocity, -scale.velocity);
   const double side = state.velocity != 0.0       ? exact::signOf(state.velocity)
@@ -339,7 +412,8 @@ double reachableByParabola(const State &start, double target, double wanted,
                            const JerkLimits &limits) noexcept {
   const double distance = target - start.position;
   const Scale scale = scaleOf(distance, start, wanted, limits);
-  const Limits scaled(limits, scale);
+  const ScaledUnits units(scale);
+  const Limits scaled(limits, units);
   double velocity = exact::ldexp(start.velocity, -scale.velocity);
   double acceleration = exact::ldexp(start.acceleration, -scale.acceleration);
   double way = exact::ldexp(distance, -scale.length);
@@ -347,7 +421,7 @@ double reachableByParabola(const State &start, double target, double wanted,
   const double halt = stop.distance(velocity, acceleration, 0.0);
   double side = way - halt; // the way of the motion to the target
   if (exact::fabs(side) <=
-      noiseOf(start, target, way, scale) + blurOf(stop, velocity, acceleration, scaled.jerk))
+      noiseOf(start, target, way, units) + blurOf(stop, velocity, acceleration, scaled.jerk))
     side = velocity;
   const double sign = side < 0.0 ? -1.0 : 1.0;
   const double speed = sign * exact::ldexp(wanted, -scale.velocity);
