@@ -1,6 +1,7 @@
 // Properties of the jerk-limited planner over random states, targets and limits.
 #include "runtime/numeric/profile/parabolic.hpp"
 
+#include "tests/support/cases.hpp"
 #include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 
@@ -21,6 +22,7 @@ using stride::motion::planParabolicVelocity;
 using stride::motion::Profile;
 using stride::motion::Segment;
 using stride::motion::State;
+using stride::test::casesOf;
 
 struct Problem {
   State start;
@@ -273,6 +275,71 @@ TEST(ParabolicProperty, NoSearchFindsAFasterMotion) {
     near += found <= profile.duration * 1.05 ? 1 : 0;
   }
   EXPECT_GT(near, cases * 7 / 10); // else the search would mean nothing
+}
+
+/// A problem whose acceleration and deceleration differ.
+Problem unlikeProblem(Random &random) {
+  Problem p = random.problem();
+  while (p.limits.acceleration == p.limits.deceleration)
+    p = random.problem();
+  return p;
+}
+
+/// The duration with both rates equal to `rate`.
+double durationWith(Problem p, double rate) {
+  p.limits.acceleration = p.limits.deceleration = rate;
+  Profile profile;
+  EXPECT_EQ(planParabolic(profile, p.start, p.target, p.endVelocity, p.limits), PlanError::None);
+  return profile.duration;
+}
+
+// Where acceleration and deceleration differ, all motions within the weaker of both are allowed,
+// and none beyond the stronger one: also where the velocity changes its sign.
+TEST(ParabolicProperty, TurnsTakeNoLongerThanWithTheWeakerRate) {
+  Random random(8);
+  int turned = 0;
+  for (int i = 0; i < casesOf(20000); ++i) {
+    Problem p = unlikeProblem(random);
+    p.endVelocity = 0;
+    const double weaker = std::min(p.limits.acceleration, p.limits.deceleration);
+    const double stronger = std::max(p.limits.acceleration, p.limits.deceleration);
+    // States that can keep the limits: what is beyond goes back to them by ways of its own.
+    p.start.acceleration = std::clamp(p.start.acceleration, -weaker, weaker);
+    const double swing = p.start.acceleration * p.start.acceleration / (2 * p.limits.jerk);
+    if (std::fabs(p.start.velocity) + swing > p.limits.velocity)
+      continue;
+    Profile profile;
+    ASSERT_EQ(planParabolic(profile, p.start, p.target, 0, p.limits), PlanError::None) << p;
+    ASSERT_EQ(wrong(profile, p), "") << p;
+    // What the last digits of places make of the time.
+    const double places = std::max(std::fabs(p.start.position), std::fabs(p.target)) +
+                          profile.duration * (std::fabs(p.start.velocity) + swing);
+    const double tick = 4 * std::cbrt(1e-14 * places / p.limits.jerk);
+    ASSERT_LE(profile.duration, durationWith(p, weaker) * (1 + 1e-9) + tick) << p;
+    ASSERT_GE(profile.duration, durationWith(p, stronger) * (1 - 1e-9) - tick) << p;
+    turned += p.start.velocity * (p.target - p.start.position) < 0 ? 1 : 0;
+  }
+  EXPECT_GT(turned, casesOf(20000) / 20);
+}
+
+// Hardly any difference of the rates makes hardly any difference of the time.
+TEST(ParabolicProperty, TurnsAreThoseOfEqualRatesWhereTheyHardlyDiffer) {
+  Random random(9);
+  for (int i = 0; i < casesOf(20000); ++i) {
+    Problem p = random.problem();
+    p.endVelocity = 0;
+    const double rate = p.limits.deceleration = p.limits.acceleration;
+    const double equal = durationWith(p, rate);
+    (random.chance(0.5) ? p.limits.acceleration : p.limits.deceleration) = rate * (1 - 1e-9);
+    Profile profile;
+    ASSERT_EQ(planParabolic(profile, p.start, p.target, 0, p.limits), PlanError::None) << p;
+    // What the last digits of places make of the time, and the difference of a way that just
+    // misses.
+    const double places = std::max(std::fabs(p.start.position), std::fabs(p.target)) +
+                          equal * (std::fabs(p.start.velocity) + rate * equal);
+    const double tick = 4 * std::cbrt(1e-9 * places / p.limits.jerk);
+    ASSERT_LE(std::fabs(profile.duration - equal), 1e-6 * equal + tick) << p;
+  }
 }
 
 TEST(ParabolicProperty, PlanningAgainChangesNothing) {

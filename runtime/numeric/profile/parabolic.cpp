@@ -2,7 +2,9 @@
 
 #include "runtime/numeric/exact_math.hpp"
 #include "runtime/numeric/profile/bracketed_root.hpp"
+#include "runtime/numeric/profile/parabolic_builder.hpp"
 #include "runtime/numeric/profile/parabolic_route.hpp"
+#include "runtime/numeric/profile/parabolic_turn.hpp"
 #include "runtime/numeric/profile/scale.hpp"
 
 namespace stride::motion {
@@ -14,127 +16,6 @@ using namespace parabolic;
 constexpr double kUnlimited = 0x1p400;
 constexpr double kUnlimitedJerk = 0x1p1000;
 
-/// Puts phases, in scaled units and in the direction `sign`, into a profile.
-class Builder {
-public:
-  Builder(Profile &profile, const Scale &scale, const State &start) noexcept
-      : profile_(profile), next_(profile.segments), length_(scale.length),
-        velocity_(scale.velocity), acceleration_(scale.acceleration),
-        jerk_(scale.acceleration - scale.time), time_(scale.time),
-        place_(start.position), state_{0.0, exact::ldexp(start.velocity, -scale.velocity),
-                                       exact::ldexp(start.acceleration, -scale.acceleration)} {}
-
-  /// Goes on with a phase.
-  void forward(const Phase &phase, double sign) noexcept {
-    if (phase.duration > 0.0)
-      forward(phase, sign,
-              after(state_, {phase.duration, sign * phase.jerk, sign * phase.acceleration}));
-  }
-
-  void forward(const VelocityChange &change, double sign) noexcept {
-    for (const Phase &phase : change.phases)
-      forward(phase, sign);
-  }
-
-  /// How the axis moves now; its position is 0.
-  [[nodiscard]] const State &state() const noexcept { return state_; }
-
-  /// A distance in user units.
-  [[nodiscard]] double length(double scaled) const noexcept { return length_(scaled); }
-
-  /// The axis is at rest now, or moves at a constant velocity: without the rounding of the phases.
-  void settle(double velocity) noexcept { state_ = {0.0, velocity, 0.0}; }
-
-  void route(const Route &route, double side, double target, double endVelocity) noexcept {
-    const double sign = side * route.sign;
-    for (int i = 0; i < route.headCount; ++i) {
-      const State &end = route.ends[i];
-      forward(route.head[i], sign,
-              {sign * end.position, sign * end.velocity, sign * end.acceleration});
-    }
-    if (route.cruise > 0.0) {
-      settle(sign * route.cruiseVelocity);
-      forward({route.cruise, 0.0, 0.0}, sign);
-    }
-    arrive(route.tail, sign, target, endVelocity);
-  }
-
-  /// A change of velocity that ends at `target` and is anchored there.
-  void arrive(const VelocityChange &change, double sign, double target,
-              double endVelocity) noexcept {
-    const Phase &first = change.phases[0];
-    const Phase &hold = change.phases[1];
-    const Phase &last = change.phases[2];
-    // Back from the end; each piece is anchored at its own.
-    const State end = {0.0, endVelocity, 0.0};
-    State held = numeric::evaluateCubic(end, sign * last.jerk, -last.duration);
-    held.acceleration = sign * hold.acceleration;
-    State reached = numeric::evaluateCubic(held, sign * hold.jerk, -hold.duration);
-    reached.acceleration = sign * first.acceleration;
-    approach(first, sign, target, reached);
-    approach(hold, sign, target, held);
-    approach(last, sign, target, end);
-    place_ = target;
-    settle(endVelocity);
-  }
-
-  /// Ends the profile with this velocity, and where the axis is. False if a number of the profile
-  /// cannot be represented; then it is empty.
-  bool finish(double position, double velocity) noexcept {
-    profile_.count = static_cast<int32_t>(next_ - profile_.segments);
-    profile_.duration = duration_;
-    profile_.end = {place_, velocity, 0.0};
-    double sum = duration_ + place_; // is no number where one of them is none
-    for (const Segment *it = profile_.segments; it != next_; ++it)
-      sum += (it->reference + it->jerk) +
-             (it->origin.position + it->origin.velocity + it->origin.acceleration);
-    const bool good = exact::isfinite(sum);
-    if (!good)
-      profile_ = Profile{{}, 0, 0.0, {position, 0.0, 0.0}};
-    return good;
-  }
-
-private:
-  /// Goes on with a phase that lasts and ends in `end`, whose position counts from its begin.
-  void forward(const Phase &phase, double sign, const State &end) noexcept {
-    append(duration_, place_, state_, sign * phase.jerk);
-    place_ += length_(end.position);
-    duration_ += time_(phase.duration);
-    settle(end.velocity);
-    state_.acceleration = end.acceleration;
-  }
-
-  /// A phase that ends in `end`, whose position counts from `target`.
-  void approach(const Phase &phase, double sign, double target, const State &end) noexcept {
-    const double until = duration_ + time_(phase.duration);
-    if (phase.duration > 0.0)
-      append(until, target + length_(end.position), end, sign * phase.jerk);
-    duration_ = until;
-  }
-
-  void append(double reference, double position, const State &state, double jerk) noexcept {
-    Segment &segment = *next_++;
-    segment.start = duration_;
-    segment.reference = reference;
-    segment.origin.position = position;
-    segment.origin.velocity = velocity_(state.velocity);
-    segment.origin.acceleration = acceleration_(state.acceleration);
-    segment.jerk = jerk_(jerk);
-    segment.frequency = 0.0;
-  }
-
-  Profile &profile_;
-  Segment *next_;
-  double duration_ = 0.0;
-  PowerOfTwo length_; ///< The units of the scaled problem.
-  PowerOfTwo velocity_;
-  PowerOfTwo acceleration_;
-  PowerOfTwo jerk_;
-  PowerOfTwo time_;
-  double place_; ///< Where the axis is. [u]
-  State state_;  ///< How it moves there; its position is 0.
-};
-
 /// The limits in scaled units.
 struct Limits {
   double velocity;
@@ -142,14 +23,14 @@ struct Limits {
   double deceleration;
   double jerk;
 
-  Limits(const JerkLimits &limits, const Scale &scale) noexcept
-      : jerk(scaled(limits.jerk, PowerOfTwo(scale.time - scale.acceleration), kUnlimitedJerk)) {
-    const PowerOfTwo perVelocity(-scale.velocity);
-    const PowerOfTwo perAcceleration(-scale.acceleration);
-    velocity = scaled(limits.velocity, perVelocity);
-    acceleration = scaled(limits.acceleration, perAcceleration);
-    deceleration = scaled(limits.deceleration, perAcceleration);
-  }
+  Limits(const JerkLimits &limits, const ScaledUnits &units) noexcept
+      : velocity(scaled(limits.velocity, units.perVelocity())),
+        acceleration(scaled(limits.acceleration, units.perAcceleration())),
+        deceleration(scaled(limits.deceleration, units.perAcceleration())),
+        jerk(scaled(limits.jerk, units.perJerk(), kUnlimitedJerk)) {}
+  Limits(const JerkLimits &limits, const UserUnits & /*same*/) noexcept
+      : velocity(limits.velocity), acceleration(limits.acceleration),
+        deceleration(limits.deceleration), jerk(limits.jerk) {}
 
   /// For velocities in the direction of motion.
   [[nodiscard]] Rates ahead() const noexcept { return {acceleration, deceleration, jerk}; }
@@ -193,9 +74,10 @@ Scale scaleOf(double distance, const State &start, double endVelocity,
 }
 
 /// What is rounding of a way in scaled units.
-double noiseOf(const State &start, double target, double way, const Scale &scale) noexcept {
+template <class Units>
+double noiseOf(const State &start, double target, double way, const Units &units) noexcept {
   const double places = exact::larger(exact::fabs(start.position), exact::fabs(target));
-  return 16.0 * kEpsilon * (PowerOfTwo(-scale.length)(places) + exact::fabs(way));
+  return 16.0 * kEpsilon * (units.perLength()(places) + exact::fabs(way));
 }
 
 PlanError result(bool representable) noexcept {
@@ -203,7 +85,8 @@ PlanError result(bool representable) noexcept {
 }
 
 /// The axis stands; goes on to `target`, which is `distance` away, with `endVelocity` there.
-void moveFromRest(Builder &builder, double distance, double target, double endVelocity,
+template <class Units>
+void moveFromRest(Builder<Units> &builder, double distance, double target, double endVelocity,
                   const Limits &limits, double noise) noexcept {
   const double side = endVelocity != 0.0 ? exact::signOf(endVelocity) : exact::signOf(distance);
   const double speed = side * endVelocity;
@@ -230,43 +113,131 @@ void moveFromRest(Builder &builder, double distance, double target, double endVe
   builder.arrive(runUp, side, target, endVelocity);
 }
 
-/// The motion between different rates for rising and falling: they hold for the magnitude of the
-/// velocity, so its sign may change only at rest.
-void moveOnOneSide(Builder &builder, const State &state, double distance, double target,
-                   double endVelocity, const Limits &limits, double noise) noexcept {
-  const double side =
-      state.velocity != 0.0 ? exact::signOf(state.velocity) : exact::signOf(state.acceleration);
-  const double velocity = side * state.velocity;
-  const double acceleration = side * state.acceleration;
-  if (settledVelocity(velocity, acceleration, limits.jerk) >= 0.0) {
-    Task task = {velocity,        acceleration, side * distance, side * endVelocity,
-                 limits.velocity, 0.0,          limits.ahead(),  noise};
-    const double back = -task.endVelocity; // at the target
-    const VelocityChange runUp(0.0, 0.0, back, limits.ahead());
-    const double runUpWay = back > 0.0 ? runUp.distance(0.0, 0.0, back) : 0.0;
-    if (back > 0.0) { // first as far as the run-up needs
-      task.distance += runUpWay;
-      task.endVelocity = 0.0;
-    }
+/// The motion of `task` to rest, to which the axis must turn around into the direction `side`.
+/// False if there is none.
+template <class Units>
+bool moveByTurn(Builder<Units> &builder, const Task &task, double side, double target) noexcept {
+  const Turn turn(task.velocity, task.acceleration, task.rates, task.top);
+  Task rest = task;
+  rest.velocity = 0.0;
+  rest.acceleration = turn.acceleration;
+  rest.distance -= turn.way;
+  Route route;
+  if (findRoute(route, rest)) {
+    builder.turn(turn, side);
+    builder.route(route, side, target, 0.0);
+    return true;
+  }
+  // It is so near that the turn is hardly more than the way back to rest: the acceleration at
+  // standstill is less than that of the turn, and falls from there on.
+  Task near = task;
+  near.bottom =
+      exact::smaller(-task.top, settledVelocity(task.velocity, task.acceleration, task.rates.jerk));
+  near.rates.rising = task.rates.falling;
+  if (!findRoute(route, near) || route.sign < 0.0)
+    return false;
+  builder.route(route, side, target, 0.0);
+  return true;
+}
+
+/// The motion of `task`, whose velocity is not negative and now lies in the direction `side`, where
+/// it must change its sign. Apart, because the other motions are quicker without its code.
+template <class Units>
+[[gnu::noinline]] void moveAndTurn(Builder<Units> &builder, const Task &task, double side,
+                                   double target, double endVelocity,
+                                   const Limits &limits) noexcept {
+  const bool goesOn = settledVelocity(task.velocity, task.acceleration, limits.jerk) >= 0.0;
+  if (task.endVelocity == 0.0) {
+    const Task back = {-task.velocity, -task.acceleration, -task.distance, 0.0, task.top, 0.0,
+                       task.rates,     task.noise};
+    if (moveByTurn(builder, back, -side, target) ||
+        (!goesOn && moveByTurn(builder, task, side, target))) // it turns twice
+      return;
+  } else if (goesOn && task.endVelocity < 0.0) { // first as far as the run-up needs
+    const VelocityChange runUp(0.0, 0.0, -task.endVelocity, limits.ahead());
+    const double runUpWay = runUp.distance(0.0, 0.0, -task.endVelocity);
+    Task ahead = task;
+    ahead.distance += runUpWay;
+    ahead.endVelocity = 0.0;
     Route route;
-    if (findRoute(route, task)) {
-      builder.route(route, side, target + builder.length(side * runUpWay), side * task.endVelocity);
-      if (back > 0.0)
-        builder.arrive(runUp, -side, target, endVelocity);
+    if (findRoute(route, ahead)) {
+      builder.route(route, side, target + builder.length(side * runUpWay), 0.0);
+      builder.arrive(runUp, -side, target, endVelocity);
       return;
     }
   }
-  const VelocityChange stop(velocity, acceleration, 0.0, limits.stopping());
+  const VelocityChange stop(task.velocity, task.acceleration, 0.0, limits.stopping());
   builder.forward(stop, side);
   builder.settle(0.0);
-  moveFromRest(builder, distance - side * stop.distance(velocity, acceleration, 0.0), target,
-               endVelocity, limits, noise);
+  const double missing = task.distance - stop.distance(task.velocity, task.acceleration, 0.0);
+  moveFromRest(builder, side * missing, target, endVelocity, limits, task.noise);
+}
+
+/// The motion between different rates for rising and falling: they hold for the magnitude of the
+/// velocity.
+template <class Units>
+void moveOnOneSide(Builder<Units> &builder, const State &state, double distance, double target,
+                   double endVelocity, const Limits &limits, double noise) noexcept {
+  const double side =
+      state.velocity != 0.0 ? exact::signOf(state.velocity) : exact::signOf(state.acceleration);
+  const Task task = {side * state.velocity, side * state.acceleration,
+                     side * distance,       side * endVelocity,
+                     limits.velocity,       0.0,
+                     limits.ahead(),        noise};
+  if (task.endVelocity >= 0.0 &&
+      settledVelocity(task.velocity, task.acceleration, limits.jerk) >= 0.0) {
+    Route route;
+    if (findRoute(route, task)) {
+      builder.route(route, side, target, endVelocity);
+      return;
+    }
+  }
+  moveAndTurn(builder, task, side, target, endVelocity, limits);
+}
+
+/// planParabolic where there is something to do and all can be represented.
+template <class Units>
+bool planTo(Profile &profile, const State &start, double target, double endVelocity,
+            const JerkLimits &limits, const Units &units) noexcept {
+  const Limits scaled(limits, units);
+  Builder<Units> builder(profile, units, start);
+  const State &state = builder.state();
+  const double way = units.perLength()(target - start.position);
+  const double last = units.perVelocity()(endVelocity);
+  const double noise = noiseOf(start, target, way, units);
+  if (scaled.acceleration == scaled.deceleration) {
+    Route route;
+    (void)findRoute(route, {state.velocity, state.acceleration, way, last, scaled.velocity,
+                            -scaled.velocity, scaled.ahead(), noise});
+    builder.route(route, 1.0, target, last);
+  } else if (state.velocity == 0.0 && state.acceleration == 0.0) {
+    moveFromRest(builder, way, target, last, scaled, noise);
+  } else {
+    moveOnOneSide(builder, state, way, target, last, scaled, noise);
+  }
+  return builder.finish(start.position, endVelocity);
+}
+
+/// Whether the user's units do: all numbers are valid then, too.
+bool isMiddling(const State &start, double target, double endVelocity,
+                const JerkLimits &limits) noexcept {
+  constexpr double kLarge = 0x1p48;
+  const double sum =
+      (exact::fabs(start.position) + exact::fabs(target)) +
+      (exact::fabs(start.velocity) + exact::fabs(endVelocity)) + exact::fabs(start.acceleration) +
+      ((limits.velocity + limits.acceleration) + (limits.deceleration + limits.jerk));
+  const double least = exact::smaller(exact::smaller(limits.velocity, limits.acceleration),
+                                      exact::smaller(limits.deceleration, limits.jerk));
+  return sum < kLarge && least > 1.0 / kLarge &&
+         exact::fabs(target - start.position) > 1.0 / kLarge;
 }
 
 } // namespace
 
 PlanError planParabolic(Profile &profile, const State &start, double target, double endVelocity,
                         const JerkLimits &limits) noexcept {
+  if (__builtin_expect(isMiddling(start, target, endVelocity, limits), 1))
+    return result(planTo(profile, start, target, endVelocity, limits, UserUnits()));
   clear(profile, start.position);
   if (!areFinite(start, target, endVelocity))
     return PlanError::InvalidState;
@@ -279,25 +250,8 @@ PlanError planParabolic(Profile &profile, const State &start, double target, dou
     profile.end = {target, endVelocity, 0.0};
     return PlanError::None;
   }
-
-  const Scale scale = scaleOf(distance, start, endVelocity, limits);
-  const Limits scaled(limits, scale);
-  Builder builder(profile, scale, start);
-  const State &state = builder.state();
-  const double way = PowerOfTwo(-scale.length)(distance);
-  const double last = PowerOfTwo(-scale.velocity)(endVelocity);
-  const double noise = noiseOf(start, target, way, scale);
-  if (scaled.acceleration == scaled.deceleration) {
-    Route route;
-    (void)findRoute(route, {state.velocity, state.acceleration, way, last, scaled.velocity,
-                            -scaled.velocity, scaled.ahead(), noise});
-    builder.route(route, 1.0, target, last);
-  } else if (state.velocity == 0.0 && state.acceleration == 0.0) {
-    moveFromRest(builder, way, target, last, scaled, noise);
-  } else {
-    moveOnOneSide(builder, state, way, target, last, scaled, noise);
-  }
-  return result(builder.finish(start.position, endVelocity));
+  const ScaledUnits units(scaleOf(distance, start, endVelocity, limits));
+  return result(planTo(profile, start, target, endVelocity, limits, units));
 }
 
 PlanError planParabolicVelocity(Profile &profile, const State &start, double velocity,
@@ -309,8 +263,9 @@ PlanError planParabolicVelocity(Profile &profile, const State &start, double vel
     return PlanError::InvalidLimit;
 
   const Scale scale = scaleOf(0.0, start, velocity, limits);
-  const Limits scaled(limits, scale);
-  Builder builder(profile, scale, start);
+  const ScaledUnits units(scale);
+  const Limits scaled(limits, units);
+  Builder<ScaledUnits> builder(profile, units, start);
   const State &state = builder.state();
   const double last = exact::ldexp(velocity, -scale.velocity);
   const double side = state.velocity != 0.0       ? exact::signOf(state.velocity)
@@ -339,7 +294,8 @@ double reachableByParabola(const State &start, double target, double wanted,
                            const JerkLimits &limits) noexcept {
   const double distance = target - start.position;
   const Scale scale = scaleOf(distance, start, wanted, limits);
-  const Limits scaled(limits, scale);
+  const ScaledUnits units(scale);
+  const Limits scaled(limits, units);
   double velocity = exact::ldexp(start.velocity, -scale.velocity);
   double acceleration = exact::ldexp(start.acceleration, -scale.acceleration);
   double way = exact::ldexp(distance, -scale.length);
@@ -347,7 +303,7 @@ double reachableByParabola(const State &start, double target, double wanted,
   const double halt = stop.distance(velocity, acceleration, 0.0);
   double side = way - halt; // the way of the motion to the target
   if (exact::fabs(side) <=
-      noiseOf(start, target, way, scale) + blurOf(stop, velocity, acceleration, scaled.jerk))
+      noiseOf(start, target, way, units) + blurOf(stop, velocity, acceleration, scaled.jerk))
     side = velocity;
   const double sign = side < 0.0 ? -1.0 : 1.0;
   const double speed = sign * exact::ldexp(wanted, -scale.velocity);

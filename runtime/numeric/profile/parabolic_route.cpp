@@ -10,8 +10,11 @@ namespace {
 /// A first guess how long a phase must last to add `gap` to the distance.
 double guessDuration(const Phase &phase, double acceleration, double gap) noexcept {
   const double jerk = exact::fabs(phase.jerk);
-  if (jerk > 0.0)
-    return exact::ldexp(1.0, exponentOf(6.0 * gap / jerk) / 3);
+  if (jerk > 0.0) {
+    const int exponent = exponentOf(6.0 * gap / jerk);
+    // Rounded down, so that the guess is the same in all units.
+    return exact::ldexp(1.0, (exponent < 0 ? exponent - 2 : exponent) / 3);
+  }
   return exact::sqrt(2.0 * gap / exact::fabs(acceleration));
 }
 

@@ -30,8 +30,9 @@ bool isAllowed(const Pursuit &task, const State &next) noexcept {
     return false;
   const double change = next.velocity - from.velocity;
   double limit = limitTowards(most, from.velocity, change);
-  if (from.velocity * next.velocity < 0.0) // it turns round on the way
-    limit = exact::smaller(most.acceleration, most.deceleration);
+  if (from.velocity * next.velocity < 0.0)       // it turns round on the way
+    limit = limitsJerk(most) ? most.acceleration // that at the end of the cycle
+                             : exact::smaller(most.acceleration, most.deceleration);
   if (!limitsJerk(most))
     return exact::fabs(change) <=
            limit * task.cycle * (1.0 + kNothing) + kNothing * kNothing * fastest;
