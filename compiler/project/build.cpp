@@ -4,6 +4,7 @@
 #include "compiler/project/job_pool.hpp"
 #include "compiler/project/made_files.hpp"
 #include "compiler/project/output_folder.hpp"
+#include "compiler/project/precompiled_headers.hpp"
 #include "compiler/project/toolchain.hpp"
 #include "compiler/project/translation_units.hpp"
 #include "compiler/project/user_cache.hpp"
@@ -26,21 +27,6 @@ namespace {
 // In the folder of emitted sources: the names of those that Stride has written there.
 constexpr std::string_view kEmittedList = ".stride-sources";
 constexpr uintmax_t kMaxListBytes = 16U << 20U; // of whatever a project ships under that name
-
-// Names in `#include "…"` of a generated text.
-std::vector<std::string> includesOf(std::string_view text) {
-  constexpr std::string_view kInclude = "#include \"";
-  std::vector<std::string> names;
-  for (size_t at = text.find(kInclude); at != std::string_view::npos;
-       at = text.find(kInclude, at)) {
-    at += kInclude.size();
-    const size_t end = text.find('"', at);
-    if (end == std::string_view::npos)
-      break;
-    names.emplace_back(text.substr(at, end - at));
-  }
-  return names;
-}
 
 // A name of a generated file, as opposed to whatever else a list may hold.
 bool isGeneratedName(const fs::path &name) {
@@ -194,18 +180,9 @@ private:
   // headers it includes.
   std::string keyOf(const GeneratedFile &unit, bool runsOnce) const {
     ContentHash hash = base_;
-    hash.add(uint64_t{runsOnce});
-    std::vector<const GeneratedFile *> pending = {&unit};
-    std::unordered_set<const GeneratedFile *> seen = {&unit};
-    while (!pending.empty()) {
-      const GeneratedFile *file = pending.back();
-      pending.pop_back();
+    hash.add(uint64_t{runsOnce}).add(uint64_t{precompilesHeaders(toolchain_, units_.size())});
+    for (const GeneratedFile *file : withIncluded(unit, byPath_))
       hash.add(file->path).add(file->text);
-      for (const std::string &name : includesOf(file->text))
-        if (const auto found = byPath_.find(name);
-            found != byPath_.end() && seen.insert(found->second).second)
-          pending.push_back(found->second);
-    }
     return hash.hex();
   }
 
@@ -256,11 +233,10 @@ private:
       if (!cache_->fetch(unit.key, ".o", unit.object))
         outdated.push_back(unit);
     compiled = outdated.size();
-    for (const GeneratedFile &file : files_)
-      if (!outdated.empty() && !writeFile(sources_ / file.path, file.text))
-        return cannotWrite(sources_ / file.path);
+    if (!writeSourcesOf(outdated))
+      return false;
     const fs::path linked = work_->path() / ("linked" + std::string(kind()));
-    if (!compile(outdated) || !linkTo(linked, all))
+    if (!precompile(outdated) || !compile(outdated) || !linkTo(linked, all))
       return false;
     if (identityOf(toolchain_, *cache_, work_->path()).hex() != base_.hex()) {
       diagnostics_
@@ -279,22 +255,52 @@ private:
     return true;
   }
 
-  std::vector<std::string> compileCommand(const Unit &unit) const {
+  /// What they are compiled from, into the folder of this build.
+  bool writeSourcesOf(const std::vector<Unit> &units) {
+    std::unordered_set<const GeneratedFile *> written;
+    for (const Unit &unit : units)
+      for (const GeneratedFile *file : withIncluded(*byPath_.at(unit.source->path), byPath_))
+        if (written.insert(file).second && !writeNewFile(sources_ / file->path, file->text))
+          return cannotWrite(sources_ / file->path);
+    return true;
+  }
+
+  /// The compiler and all that is the same for all sources that have these flags.
+  std::vector<std::string> compilerWith(const std::vector<std::string> &flags) const {
     std::vector<std::string> command;
     if (!toolchain_.launcher.empty())
       command.push_back(toolchain_.launcher.string());
     command.push_back(toolchain_.compiler.string());
-    const std::vector<std::string> &flags =
-        unit.source->runsOnce ? toolchain_.onceFlags : toolchain_.compileFlags;
     command.insert(command.end(), flags.begin(), flags.end());
     const std::string include = toolchain_.installation.include.string();
     // The same bytes wherever sources, cache and Stride lie.
     command.insert(command.end(),
                    {fmt::format("-ffile-prefix-map={}=.", sources_.string()),
                     fmt::format("-ffile-prefix-map={}={}", include, kHeadersInLineTables), "-I",
-                    sources_.string(), "-I", include, "-c", (sources_ / unit.source->path).string(),
-                    "-o", unit.object.string()});
+                    sources_.string(), "-I", include});
     return command;
+  }
+
+  std::vector<std::string> compileCommand(const Unit &unit) const {
+    std::vector<std::string> command =
+        compilerWith(unit.source->runsOnce ? toolchain_.onceFlags : toolchain_.compileFlags);
+    if (precompilesHeaders(toolchain_, units_.size()))
+      command.insert(command.end(), {"-include", (sources_ / kPrecompiledHeaders).string()});
+    command.insert(command.end(),
+                   {"-c", (sources_ / unit.source->path).string(), "-o", unit.object.string()});
+    return command;
+  }
+
+  bool precompile(const std::vector<Unit> &outdated) {
+    if (outdated.empty() || !precompilesHeaders(toolchain_, units_.size()))
+      return true;
+    const std::optional<PrecompilingFailed> failed = precompileHeaders(
+        *cache_, base_, compilerWith(toolchain_.compileFlags), sources_, work_->path());
+    if (failed && failed->result.status == 0)
+      return cannotWrite(sources_);
+    if (failed)
+      reportFailure("compiling", failed->job, failed->result);
+    return !failed;
   }
 
   bool compile(const std::vector<Unit> &units) {
@@ -454,7 +460,7 @@ private:
   ContentHash base_; ///< the tool chain's
   std::vector<GeneratedFile> files_;
   std::vector<TranslationUnit> units_;
-  std::unordered_map<std::string, const GeneratedFile *> byPath_;
+  FilesByPath byPath_;
 };
 
 } // namespace

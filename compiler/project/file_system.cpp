@@ -148,6 +148,26 @@ bool writeFile(const fs::path &path, std::string_view text, unsigned mode) {
   return good;
 }
 
+bool writeNewFile(const fs::path &path, std::string_view text) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+  int file = ::open(path.c_str(), kFlags, 0666);
+  if (file < 0 && errno == ENOENT) {
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    file = ::open(path.c_str(), kFlags, 0666);
+  }
+  if (file < 0)
+    return false;
+  bool good = writeAll(file, text);
+  int saved = errno;
+  if (::close(file) != 0 && good) {
+    saved = errno;
+    good = false;
+  }
+  errno = saved;
+  return good;
+}
+
 bool replaceFile(const fs::path &path, std::string_view text) {
   std::error_code error;
   const fs::path target = fs::canonical(path, error); // a link stays one

@@ -32,6 +32,10 @@ inline constexpr unsigned kUserOnly = 0700;
 [[nodiscard]] bool writeFile(const std::filesystem::path &path, std::string_view text,
                              unsigned mode);
 
+/// Writes a file that is not there yet, making its folder; false on failure (errno). What fails may
+/// leave a part of it: for folders that nobody else looks into.
+[[nodiscard]] bool writeNewFile(const std::filesystem::path &path, std::string_view text);
+
 /// As writeFile, in an open folder: neither the file written beside it, which gets a name that
 /// nobody can know before, nor the renaming follows a link.
 [[nodiscard]] bool writeAt(int folder, const std::string &name, std::string_view text,
