@@ -23,9 +23,10 @@ enum Effect : unsigned {
 
 class Analysis {
 public:
-  explicit Analysis(const Program &program)
-      : checks_(program.settings.checks), ownChecks_(program.implicitChecks),
-        sharing_(program.sharing) {}
+  explicit Analysis(const Program &program) : Analysis(program, program.settings.checks) {}
+  /// `checks`: run-time checks are made, whatever the program's settings say.
+  Analysis(const Program &program, bool checks)
+      : checks_(checks), ownChecks_(program.implicitChecks), sharing_(program.sharing) {}
 
   /// Effect bits of evaluating the expression with its conversion.
   [[nodiscard]] unsigned effects(const ast::Expr *expr);
@@ -123,6 +124,8 @@ private:
 
 /// A pointer or a reference lies on the way to the element.
 [[nodiscard]] bool followsAddress(const ast::IndexExpr *e);
+/// Values that fit a register. Texts and aggregates stay where they are.
+[[nodiscard]] bool isScalar(const Type *type);
 /// The variable an expression names directly (`x`, `GVL.x`, not `a.x`); null for all others.
 [[nodiscard]] const VarSymbol *namedVariable(const ast::Expr *expr);
 /// What the place is a bit, a part or a field of, with no address followed in between: `a[i]` of

@@ -12,12 +12,6 @@ using namespace ast;
 
 namespace {
 
-/// Values that fit a register. Texts and aggregates stay where they are.
-bool isScalar(const Type *type) {
-  const Type *t = underlying(type);
-  return t->kind == TypeKind::Boolean || isInteger(t) || isReal(t) || isTimeOrDate(t);
-}
-
 /// Copying it copies variables of blocks.
 bool holdsInstance(const Type *type) {
   return anyHeld(type, [](const Type *t, const VarSymbol *) {

@@ -126,16 +126,26 @@ Counter counterOf(EmitContext &cx, const ForStmt *s) {
   return counter;
 }
 
-/// `i = static_cast<…>(i + 2)`
+/// `++i`, `i += 2`
 void emitStep(EmitContext &cx, const Counter &counter) {
   const int64_t step = counter.step;
   if (step == 1 || step == -1)
     cx.out << (step > 0 ? "++" : "--") << counter.variable;
-  else if (bitWidth(counter.type) < 32)
-    cx.out << counter.variable << " = static_cast<" << cx.type(counter.type) << ">("
-           << counter.variable << (step > 0 ? " + " : " - ") << (step > 0 ? step : -step) << ')';
   else
     cx.out << counter.variable << (step > 0 ? " += " : " -= ") << (step > 0 ? step : -step);
+}
+
+/// `for (DINT at = 1; i = static_cast<INT>(at), at <= 10; ++at)`: a counter as wide as a register,
+/// of which C++ knows that it does not wrap.
+void openWide(EmitContext &cx, const Counter &counter) {
+  const ForStmt *s = counter.stmt;
+  const std::string at = "at__" + counter.number;
+  const int64_t step = counter.step;
+  cx.out << "for (::stride::DINT " << at << " = " << s->from->constant->integer << "; "
+         << counter.variable << " = static_cast<" << cx.type(counter.type) << ">(" << at << "), "
+         << at << (step > 0 ? " <= " : " >= ") << s->to->constant->integer << "; " << at
+         << " += " << step << ") {";
+  cx.end();
 }
 
 /// `for (i = 1; i <= 10; ++i)`, where that means the same: the body does not change the variable,
@@ -143,6 +153,11 @@ void emitStep(EmitContext &cx, const Counter &counter) {
 void emitCounted(EmitContext &cx, const Counter &counter) {
   const ForStmt *s = counter.stmt;
   const KnownRange range(cx, counter);
+  if (bitWidth(counter.type) < 32) {
+    openWide(cx, counter);
+    emitLoopBody(cx, s->body, false);
+    return;
+  }
   cx.out << "for (";
   emitStoreTo(cx, counter.variable, s->variable->type, s->from);
   cx.out << ' ' << counter.variable << (counter.step > 0 ? " <= " : " >= ");
@@ -265,9 +280,7 @@ std::string openLocals(EmitContext &cx, Span span) {
   return context;
 }
 
-} // namespace
-
-void emitLoop(EmitContext &cx, const Stmt *s) {
+void emitWithLocals(EmitContext &cx, const Stmt *s) {
   Loops &loops = cx.modes.loops;
   std::vector<const VarSymbol *> locals;
   if (loops.locals.empty()) // the outermost one
@@ -284,6 +297,27 @@ void emitLoop(EmitContext &cx, const Stmt *s) {
     emitPlainLoop(cx, s);
   }
   cx.line(context + ".save();");
+  cx.close();
+  cx.line("}");
+}
+
+} // namespace
+
+// The cycle's time is the same all the time, but C++ does not know which stores leave the context
+// alone. What it computes from a copy that nobody else has is computed before the loop.
+void emitLoop(EmitContext &cx, const Stmt *s) {
+  Loops &loops = cx.modes.loops;
+  if (loops.plain != kContext || !cx.run.plainCalls.readsClock(s)) {
+    emitWithLocals(cx, s);
+    return;
+  }
+  const Scoped<std::string> copy(loops.plain, cx.temporary("clock"));
+  cx.begin(s->span);
+  cx.out << "{ ::stride::Ctx " << loops.plain << " = " << kContext << ';';
+  cx.uses.context = true;
+  cx.end();
+  cx.open();
+  emitWithLocals(cx, s);
   cx.close();
   cx.line("}");
 }
