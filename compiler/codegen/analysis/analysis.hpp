@@ -6,6 +6,7 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/program.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <unordered_map>
 #include <vector>
@@ -124,6 +125,10 @@ private:
 
 /// A pointer or a reference lies on the way to the element.
 [[nodiscard]] bool followsAddress(const ast::IndexExpr *e);
+/// The list has it.
+template <class T> [[nodiscard]] bool contains(const std::vector<T> &all, T one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
 /// Values that fit a register. Texts and aggregates stay where they are.
 [[nodiscard]] bool isScalar(const Type *type);
 /// The variable an expression names directly (`x`, `GVL.x`, not `a.x`); null for all others.

@@ -64,10 +64,6 @@ bool standsAlone(const PouSymbol *block) {
   return block->base == nullptr && !block->extended && !block->isAbstract();
 }
 
-template <class T> bool contains(const std::vector<T> &all, T one) {
-  return std::find(all.begin(), all.end(), one) != all.end();
-}
-
 } // namespace
 
 std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol *pou) {
