@@ -113,6 +113,7 @@ struct Modes {
   Initialised init;
   Loops loops;
   std::vector<Try> tries;
+  const ast::Stmt *before = nullptr; ///< the statement before this one in its block
 };
 
 /// The C++ of one file: what is written into, what it needs around it, and where in the ST it is.

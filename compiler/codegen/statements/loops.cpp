@@ -52,6 +52,15 @@ void emitLoopBody(EmitContext &cx, Block body, bool isDouble) {
   loops.pop_back();
 }
 
+/// Nothing but the loop's own statements reaches the variable of the POU while it runs.
+bool isReachedOnlyHere(EmitContext &cx, const VarSymbol *v) {
+  if (contains(cx.modes.loops.locals, v))
+    return true;
+  return cx.pou != nullptr && cx.pou->isFunction() && v->owner == cx.pou &&
+         v->section == Section::Local && !isIndirect(v) && v->location == nullptr &&
+         !cx.run.analysis.isShared(v) && !cx.run.addressed.onDataStack(v);
+}
+
 void emitWhile(EmitContext &cx, const WhileStmt *s) {
   const std::string run = cx.temporary("run");
   cx.begin(s->span);
@@ -60,7 +69,14 @@ void emitWhile(EmitContext &cx, const WhileStmt *s) {
   emitValue(cx, s->condition);
   cx.out << ")) {";
   cx.end();
+  Analysis &analysis = cx.run.analysis;
+  const VarSymbol *v = Analysis::steppedVariable(s);
+  if (v != nullptr && isReachedOnlyHere(cx, v))
+    analysis.enterWhile(s, cx.modes.before);
+  else
+    analysis.enterUnknown();
   emitLoopBody(cx, s->body, true);
+  analysis.leaveLoop();
 }
 
 void emitRepeat(EmitContext &cx, const RepeatStmt *s) {
