@@ -267,6 +267,14 @@ template <class T> constexpr bool forNext(T &i, T end, LINT step) {
                   : forUp(i, end, static_cast<ULINT>(step));
 }
 
+/// How often a loop runs that counts from `at` by the step and ends where `stop` is reached or
+/// passed; the step is not 0.
+constexpr DINT roundsTo(DINT at, DINT stop, DINT step) {
+  if (step > 0)
+    return at < stop ? (stop - 1 - at) / step + 1 : 0;
+  return at > stop ? (at - stop - 1) / -step + 1 : 0;
+}
+
 /// The same real, of which the compiler does not know that it lies beside another one.
 template <class T> __attribute__((always_inline)) inline T single(T value) {
 #if defined(__x86_64__)

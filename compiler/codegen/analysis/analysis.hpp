@@ -6,7 +6,9 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/program.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -23,9 +25,10 @@ enum Effect : unsigned {
 
 class Analysis {
 public:
-  explicit Analysis(const Program &program)
-      : checks_(program.settings.checks), ownChecks_(program.implicitChecks),
-        sharing_(program.sharing) {}
+  explicit Analysis(const Program &program) : Analysis(program, program.settings.checks) {}
+  /// `checks`: run-time checks are made, whatever the program's settings say.
+  Analysis(const Program &program, bool checks)
+      : checks_(checks), ownChecks_(program.implicitChecks), sharing_(program.sharing) {}
 
   /// Effect bits of evaluating the expression with its conversion.
   [[nodiscard]] unsigned effects(const ast::Expr *expr);
@@ -73,9 +76,17 @@ public:
   /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing
   /// else can change it; `countsAlone` says that this is known.
   void enterLoop(const ast::ForStmt *loop, bool countsAlone = false);
+  /// The variable that the last statement of the body counts up or down; null: there is none.
+  [[nodiscard]] static const VarSymbol *steppedVariable(const ast::WhileStmt *loop);
+  /// Within the body of a WHILE loop it has a known range up to that statement, if the statement
+  /// `before` the loop (or null) gives it a value of a known one. Nothing but the loop's own
+  /// statements changes the variable while it runs.
+  void enterWhile(const ast::WhileStmt *loop, const ast::Stmt *before);
+  /// A WHILE loop of which nothing is known.
+  void enterUnknown() { ranges_.push_back({nullptr, 0, 0}); }
   void leaveLoop();
-  /// The index needs no check: a constant, or a loop variable (plus a constant) that stays within
-  /// the bounds.
+  /// The index needs no check: a constant, or computed from constants and from variables of loops
+  /// so that it stays within the bounds.
   [[nodiscard]] bool provenIndex(const ast::Expr *index, const ArrayType *array) const;
 
 private:
@@ -98,6 +109,15 @@ private:
     int64_t low;
     int64_t high;
   };
+
+  struct Interval {
+    int64_t low;
+    int64_t high;
+  };
+  [[nodiscard]] Range whileRange(const ast::WhileStmt *loop, const ast::Stmt *before) const;
+  /// The values that the expression can have here, or nothing.
+  [[nodiscard]] std::optional<Interval> interval(const ast::Expr *e, unsigned depth = 0) const;
+  [[nodiscard]] std::optional<Interval> intervalOf(const ast::BinaryExpr *e, unsigned depth) const;
 
   bool checks_;
   const ImplicitChecks &ownChecks_;
@@ -123,6 +143,12 @@ private:
 
 /// A pointer or a reference lies on the way to the element.
 [[nodiscard]] bool followsAddress(const ast::IndexExpr *e);
+/// The list has it.
+template <class T> [[nodiscard]] bool contains(const std::vector<T> &all, T one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+/// Values that fit a register. Texts and aggregates stay where they are.
+[[nodiscard]] bool isScalar(const Type *type);
 /// The variable an expression names directly (`x`, `GVL.x`, not `a.x`); null for all others.
 [[nodiscard]] const VarSymbol *namedVariable(const ast::Expr *expr);
 /// What the place is a bit, a part or a field of, with no address followed in between: `a[i]` of

@@ -10,6 +10,11 @@ namespace stc::codegen {
 
 using namespace ast;
 
+bool isScalar(const Type *type) {
+  const Type *t = underlying(type);
+  return t->kind == TypeKind::Boolean || isInteger(t) || isReal(t) || isTimeOrDate(t);
+}
+
 bool isNamespace(const Expr *expr) {
   const Symbol *symbol = nullptr;
   if (expr->kind == ExprKind::Name)

@@ -12,12 +12,6 @@ using namespace ast;
 
 namespace {
 
-/// Values that fit a register. Texts and aggregates stay where they are.
-bool isScalar(const Type *type) {
-  const Type *t = underlying(type);
-  return t->kind == TypeKind::Boolean || isInteger(t) || isReal(t) || isTimeOrDate(t);
-}
-
 /// Copying it copies variables of blocks.
 bool holdsInstance(const Type *type) {
   return anyHeld(type, [](const Type *t, const VarSymbol *) {
@@ -68,10 +62,6 @@ bool isOwnPlace(const Expr *place) {
 /// A block that stands for itself alone: no other one shares its variables or replaces its code.
 bool standsAlone(const PouSymbol *block) {
   return block->base == nullptr && !block->extended && !block->isAbstract();
-}
-
-template <class T> bool contains(const std::vector<T> &all, T one) {
-  return std::find(all.begin(), all.end(), one) != all.end();
 }
 
 } // namespace

@@ -272,7 +272,9 @@ public:
     part(first_ ? span : Span{});
     const bool dispatch =
         isBodyDispatched(e_->pou) && !isExact(e_->callee) && !isSuper(e_->callee); // SUPER^()
-    cx_.out << instance_ << (dispatch ? ".body__call(" : ".body__(") << cx_.ctx() << ");";
+    const bool ends = !isProgram_ && !dispatch && cx_.run.plainCalls.alwaysEnds(e_->pou);
+    cx_.out << instance_ << (dispatch ? ".body__call(" : ".body__(")
+            << (ends ? cx_.plainContext() : cx_.ctx()) << ");";
     give();
     cx_.out << (braces ? " }" : "");
   }

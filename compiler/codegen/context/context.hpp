@@ -6,6 +6,7 @@
 #include "compiler/codegen/analysis/addressed.hpp"
 #include "compiler/codegen/analysis/analysis.hpp"
 #include "compiler/codegen/analysis/loop_locals.hpp"
+#include "compiler/codegen/analysis/plain_calls.hpp"
 #include "compiler/codegen/analysis/repetition.hpp"
 #include "compiler/codegen/cpp/layout.hpp"
 #include "compiler/codegen/cpp/names.hpp"
@@ -31,11 +32,12 @@ struct Context {
   Analysis analysis;
   LoopLocals loopLocals;
   Addressed addressed;
+  PlainCalls plainCalls;
   Repetition repetition;
 
   Context(const Program &p, const Library *library)
       : program(p), own(library), names(p), layouts(p, library), analysis(p), loopLocals(analysis),
-        addressed(p, library), repetition(p, library) {}
+        addressed(p, library), plainCalls(p, addressed), repetition(p, library) {}
 };
 
 /// What the call's context is called in the code of POUs.
@@ -87,6 +89,8 @@ struct Loops {
   std::vector<Loop> around;
   std::vector<const VarSymbol *> locals;
   std::string context{kContext}; ///< what stands for the context: a loop's own where it has locals
+  /// The same for calls that always end: a loop's copy where these read the clock in it.
+  std::string plain{kContext};
 };
 
 /// A __TRY with __FINALLY whose statements are being written.
@@ -109,6 +113,7 @@ struct Modes {
   Initialised init;
   Loops loops;
   std::vector<Try> tries;
+  const ast::Stmt *before = nullptr; ///< the statement before this one in its block
 };
 
 /// The C++ of one file: what is written into, what it needs around it, and where in the ST it is.
@@ -156,6 +161,11 @@ struct EmitContext {
   std::string_view ctx() {
     uses.context = true;
     return modes.loops.context;
+  }
+  /// The same for a body that always ends (PlainCalls).
+  std::string_view plainContext() {
+    uses.context = true;
+    return modes.loops.plain;
   }
   /// `file__, 12, 3` of a check.
   void position(Span span);

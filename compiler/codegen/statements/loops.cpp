@@ -1,5 +1,6 @@
 #include "compiler/codegen/statements/loops.hpp"
 
+#include "compiler/codegen/analysis/inner_sums.hpp"
 #include "compiler/codegen/expressions/expressions.hpp"
 #include "compiler/codegen/places/places.hpp"
 #include "compiler/codegen/statements/assignments.hpp"
@@ -51,6 +52,15 @@ void emitLoopBody(EmitContext &cx, Block body, bool isDouble) {
   loops.pop_back();
 }
 
+/// Nothing but the loop's own statements reaches the variable of the POU while it runs.
+bool isReachedOnlyHere(EmitContext &cx, const VarSymbol *v) {
+  if (contains(cx.modes.loops.locals, v))
+    return true;
+  return cx.pou != nullptr && cx.pou->isFunction() && v->owner == cx.pou &&
+         v->section == Section::Local && !isIndirect(v) && v->location == nullptr &&
+         !cx.run.analysis.isShared(v) && !cx.run.addressed.onDataStack(v);
+}
+
 void emitWhile(EmitContext &cx, const WhileStmt *s) {
   const std::string run = cx.temporary("run");
   cx.begin(s->span);
@@ -59,7 +69,14 @@ void emitWhile(EmitContext &cx, const WhileStmt *s) {
   emitValue(cx, s->condition);
   cx.out << ")) {";
   cx.end();
+  Analysis &analysis = cx.run.analysis;
+  const VarSymbol *v = Analysis::steppedVariable(s);
+  if (v != nullptr && isReachedOnlyHere(cx, v))
+    analysis.enterWhile(s, cx.modes.before);
+  else
+    analysis.enterUnknown();
   emitLoopBody(cx, s->body, true);
+  analysis.leaveLoop();
 }
 
 void emitRepeat(EmitContext &cx, const RepeatStmt *s) {
@@ -126,23 +143,31 @@ Counter counterOf(EmitContext &cx, const ForStmt *s) {
   return counter;
 }
 
-/// `i = static_cast<…>(i + 2)`
+/// `++i`, `i += 2`
 void emitStep(EmitContext &cx, const Counter &counter) {
   const int64_t step = counter.step;
   if (step == 1 || step == -1)
     cx.out << (step > 0 ? "++" : "--") << counter.variable;
-  else if (bitWidth(counter.type) < 32)
-    cx.out << counter.variable << " = static_cast<" << cx.type(counter.type) << ">("
-           << counter.variable << (step > 0 ? " + " : " - ") << (step > 0 ? step : -step) << ')';
   else
     cx.out << counter.variable << (step > 0 ? " += " : " -= ") << (step > 0 ? step : -step);
 }
 
-/// `for (i = 1; i <= 10; ++i)`, where that means the same: the body does not change the variable,
-/// and it does not wrap after the end.
-void emitCounted(EmitContext &cx, const Counter &counter) {
+/// `for (DINT at = 1; i = static_cast<INT>(at), at <= 10; ++at)`: a counter as wide as a register,
+/// of which C++ knows that it does not wrap.
+void openWide(EmitContext &cx, const Counter &counter) {
   const ForStmt *s = counter.stmt;
-  const KnownRange range(cx, counter);
+  const std::string at = "at__" + counter.number;
+  const int64_t step = counter.step;
+  cx.out << "for (::stride::DINT " << at << " = " << s->from->constant->integer << "; "
+         << counter.variable << " = static_cast<" << cx.type(counter.type) << ">(" << at << "), "
+         << at << (step > 0 ? " <= " : " >= ") << s->to->constant->integer << "; " << at
+         << " += " << step << ") {";
+  cx.end();
+}
+
+/// `for (i = 1; i <= 10; ++i)`
+void openNarrow(EmitContext &cx, const Counter &counter) {
+  const ForStmt *s = counter.stmt;
   cx.out << "for (";
   emitStoreTo(cx, counter.variable, s->variable->type, s->from);
   cx.out << ' ' << counter.variable << (counter.step > 0 ? " <= " : " >= ");
@@ -151,7 +176,64 @@ void emitCounted(EmitContext &cx, const Counter &counter) {
   emitStep(cx, counter);
   cx.out << ") {";
   cx.end();
-  emitLoopBody(cx, s->body, false);
+}
+
+/// Variables that each round sets anew, in a loop whose rounds have nothing else to do with each
+/// other. Each round has its own, and all of them stay until the last one is taken: C++ need not
+/// make the rounds one after the other.
+class OwnSums {
+public:
+  OwnSums(EmitContext &cx, const Counter &counter) : cx_(cx), counter_(counter) {
+    if (counter.step == 1)
+      sums_ = innerSums(cx.run.analysis, counter.stmt, cx.modes.loops.locals);
+    rounds_ = sums_.empty() ? 0 : cx.run.analysis.ownRounds(counter.stmt);
+    for (const VarSymbol *v : sums_)
+      cx.out << cx.type(v->type) << ' ' << all(v) << '[' << rounds_ << "]; ";
+  }
+
+  [[nodiscard]] bool empty() const { return sums_.empty(); }
+
+  /// As emitLoopBody. EXIT and CONTINUE are not in it.
+  void emitBody() {
+    const int64_t from = counter_.stmt->from->constant->integer;
+    cx_.open();
+    for (const VarSymbol *v : sums_)
+      cx_.line(std::string(cx_.type(v->type)) + ' ' + mangle(v->name.text) + ';');
+    emitBlock(cx_, counter_.stmt->body);
+    for (const VarSymbol *v : sums_)
+      cx_.line(all(v) + '[' + counter_.variable + " - (" + std::to_string(from) +
+               ")] = " + mangle(v->name.text) + ';');
+    cx_.close();
+    cx_.line("}");
+    for (const VarSymbol *v : sums_)
+      cx_.line(mangle(v->name.text) + " = " + all(v) + '[' + std::to_string(rounds_ - 1) + "];");
+  }
+
+private:
+  /// `sum__rounds5`
+  [[nodiscard]] std::string all(const VarSymbol *v) const {
+    return mangle(v->name.text) + "__rounds" + counter_.number;
+  }
+
+  EmitContext &cx_;
+  const Counter &counter_;
+  std::vector<const VarSymbol *> sums_;
+  int64_t rounds_ = 0;
+};
+
+/// A plain C++ loop, where that means the same: the body does not change the variable, and it does
+/// not wrap after the end.
+void emitCounted(EmitContext &cx, const Counter &counter) {
+  const KnownRange range(cx, counter);
+  OwnSums sums(cx, counter);
+  if (bitWidth(counter.type) < 32)
+    openWide(cx, counter);
+  else
+    openNarrow(cx, counter);
+  if (sums.empty())
+    emitLoopBody(cx, counter.stmt->body, false);
+  else
+    sums.emitBody();
 }
 
 /// All rounds are taken from the loop budget at once.
@@ -223,16 +305,48 @@ void emitGeneral(EmitContext &cx, const Counter &counter) {
   emitLoopBody(cx, s->body, !counter.isShort);
 }
 
+/// Bounds that are known at run time, of a variable with so few bits that the loop is short
+/// whatever they are: all rounds are taken from the loop budget at once.
+void emitFewBits(EmitContext &cx, const Counter &counter) {
+  const ForStmt *s = counter.stmt;
+  const bool up = counter.step > 0;
+  const std::string at = "at__" + counter.number;
+  const std::string stop = "stop__" + counter.number;
+  emitStoreTo(cx, counter.variable, s->variable->type, s->from);
+  cx.out << " const ::stride::DINT " << stop << " = ";
+  emitValueAs(cx, s->to, counter.type);
+  cx.out << (up ? " + 1" : " - 1") << "; ::stride::DINT " << at << " = " << counter.variable
+         << "; budget__.refill((budget__.left -= ::stride::roundsTo(" << at << ", " << stop << ", "
+         << counter.step << ")) < 0, " << cx.ctx() << ", ";
+  cx.position(s->span);
+  cx.out << "); for (; " << counter.variable << " = static_cast<" << cx.type(counter.type) << ">("
+         << at << "), " << at << (up ? " < " : " > ") << stop << "; " << at
+         << " += " << counter.step << ") {";
+  cx.end();
+  cx.uses.budget = true;
+  const KnownRange range(cx, counter);
+  emitLoopBody(cx, s->body, false);
+}
+
+/// A step that no sum with a variable of few bits makes too large for a DINT.
+bool isSmallStep(const Counter &counter) {
+  constexpr int64_t kMost = 1 << 16;
+  return counter.hasStep && counter.step != 0 && counter.step >= -kMost && counter.step <= kMost;
+}
+
 void emitFor(EmitContext &cx, const ForStmt *s) {
   const Analysis &analysis = cx.run.analysis;
   const Counter counter = counterOf(cx, s);
   // Rounds that are taken from the budget and not made would count as made.
-  const bool atOnce = counter.countsAlone && analysis.fewRounds(s) && !mayLeave(s->body, true);
+  const bool isWhole = counter.countsAlone && !mayLeave(s->body, true);
+  const bool atOnce = isWhole && analysis.fewRounds(s);
   const bool counted = (counter.isShort || atOnce) && analysis.endsInside(s);
   if (counted && !counter.isShort)
     takeRounds(cx, s);
   if (counted)
     emitCounted(cx, counter);
+  else if (isWhole && bitWidth(counter.type) < 32 && isSmallStep(counter))
+    emitFewBits(cx, counter);
   else
     emitGeneral(cx, counter);
 }
@@ -265,9 +379,7 @@ std::string openLocals(EmitContext &cx, Span span) {
   return context;
 }
 
-} // namespace
-
-void emitLoop(EmitContext &cx, const Stmt *s) {
+void emitWithLocals(EmitContext &cx, const Stmt *s) {
   Loops &loops = cx.modes.loops;
   std::vector<const VarSymbol *> locals;
   if (loops.locals.empty()) // the outermost one
@@ -284,6 +396,27 @@ void emitLoop(EmitContext &cx, const Stmt *s) {
     emitPlainLoop(cx, s);
   }
   cx.line(context + ".save();");
+  cx.close();
+  cx.line("}");
+}
+
+} // namespace
+
+// The cycle's time is the same all the time, but C++ does not know which stores leave the context
+// alone. What it computes from a copy that nobody else has is computed before the loop.
+void emitLoop(EmitContext &cx, const Stmt *s) {
+  Loops &loops = cx.modes.loops;
+  if (loops.plain != kContext || !cx.run.plainCalls.readsClock(s)) {
+    emitWithLocals(cx, s);
+    return;
+  }
+  const Scoped<std::string> copy(loops.plain, cx.temporary("clock"));
+  cx.begin(s->span);
+  cx.out << "{ ::stride::Ctx " << loops.plain << " = " << kContext << ';';
+  cx.uses.context = true;
+  cx.end();
+  cx.open();
+  emitWithLocals(cx, s);
   cx.close();
   cx.line("}");
 }

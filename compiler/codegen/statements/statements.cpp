@@ -90,6 +90,7 @@ void emitBlock(EmitContext &cx, Block block) {
   const bool labelled = std::any_of(block.begin(), block.end(), [](const Stmt *s) {
     return s->kind == StmtKind::Label && as<LabelStmt>(s)->used;
   });
+  const Scoped<const Stmt *> outer(cx.modes.before, nullptr);
   for (const Stmt *s : block) {
     const bool alone = labelled && s->kind != StmtKind::Label && s->kind != StmtKind::Empty;
     if (alone) {
@@ -101,6 +102,8 @@ void emitBlock(EmitContext &cx, Block block) {
       cx.close();
       cx.line("}");
     }
+    if (s->kind != StmtKind::Empty)
+      cx.modes.before = s;
   }
 }
 
