@@ -13,7 +13,15 @@
 
 parser grammar StParser;
 
-options { tokenVocab = StLexer; }
+options {
+  tokenVocab = StLexer;
+  superClass = ParserBase; // with members of the names that generated code uses: ANTLR's are slower
+  contextSuperClass = ContextBase;
+}
+
+@postinclude {
+#include "compiler/syntax/parser_base.hpp"
+}
 
 sourceFile : ( declaration | namespaceBlock | usingDirective )* EOF ;
 

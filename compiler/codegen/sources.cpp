@@ -2,9 +2,13 @@
 
 #include "compiler/codegen/cpp/inlining.hpp"
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/source/workers.hpp"
 
 #include <algorithm>
+#include <deque>
+#include <iterator>
 
 namespace stc::codegen {
 
@@ -153,12 +157,35 @@ bool hasConfiguredValues(const Program &program) {
       [](const SlotPlace &entry) { return entry.decl != nullptr && entry.decl->init != nullptr; });
 }
 
+/// Does now what copies of the context would do each for itself, or at once.
+static void prepare(Context &context) {
+  context.addressed.prepare();
+  context.repetition.prepare();
+  for (const auto &library : context.program.libraries)
+    for (const TypeSymbol *t : library->types)
+      static_cast<void>(alignmentOf(t->type)); // keeps its result
+}
+
 void generateSources(Context &context, std::vector<GeneratedFile> &files) {
   typesAndLists(context, std::string(context.names.space(context.own)) + "/", files);
-  for (const PouSymbol *p : context.own->pous) {
-    if (!p->isInterface())
-      pou(context, p, files);
-  }
+  std::vector<const PouSymbol *> pous;
+  std::copy_if(context.own->pous.begin(), context.own->pous.end(), std::back_inserter(pous),
+               [](const PouSymbol *p) { return !p->isInterface(); });
+  size_t bytes = 0;
+  for (const File *file : context.program.files)
+    bytes += context.program.sources.file(file->id).text().size();
+  const unsigned threads = Workers(context.program.settings.jobs).threadsFor(pous.size(), bytes);
+  if (threads > 1)
+    prepare(context);
+  std::deque<Context> others;
+  for (unsigned i = 1; i < threads; ++i)
+    others.emplace_back(context);
+  std::vector<std::vector<GeneratedFile>> parts(pous.size());
+  Workers::each(pous.size(), threads, [&](size_t i, unsigned thread) {
+    pou(thread == 0 ? context : others[thread - 1], pous[i], parts[i]);
+  });
+  for (std::vector<GeneratedFile> &part : parts)
+    std::move(part.begin(), part.end(), std::back_inserter(files));
 }
 
 } // namespace stc::codegen

@@ -79,9 +79,11 @@ bool parseLibrary(Program &program, const FoundLibrary &library, const LibraryIn
   source.about = about(*library.config.library);
   DeclaredNames names(program.sources, library.sources);
   const ParseOptions options{library.config.defines, &names};
+  std::vector<const SourceFile *> sources;
   for (const FileId id : library.sources)
-    source.files.push_back(parse(program.sources.file(id), program.interner, program.arena,
-                                 program.diagnostics, &options));
+    sources.push_back(&program.sources.file(id));
+  source.files = parseFiles(sources, program.interner, program.arena, program.diagnostics, &options,
+                            Workers(program.settings.jobs));
   attachMembers(source.files, program.arena, program.diagnostics);
   removeTests(source.files, program.arena);
   checkLibraryContent(source.files, program.diagnostics);

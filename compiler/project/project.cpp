@@ -169,14 +169,16 @@ bool Project::addDeclarations(Purpose purpose, ProgramCheck programCheck,
 void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   const bool librariesFound = readLibraries(program_, config_, path_, index);
   const size_t configErrors = program_.diagnostics.errorCount();
-  std::vector<ast::File *> files;
   DeclaredNames names(program_.sources, sourceFiles_);
   ParseOptions options{config_.defines, &names};
   options.defines.insert(options.defines.end(), program_.settings.defines.begin(),
                          program_.settings.defines.end());
+  std::vector<const SourceFile *> sources;
   for (const FileId id : sourceFiles_)
-    files.push_back(parse(program_.sources.file(id), program_.interner, program_.arena,
-                          program_.diagnostics, &options));
+    sources.push_back(&program_.sources.file(id));
+  std::vector<ast::File *> files =
+      parseFiles(sources, program_.interner, program_.arena, program_.diagnostics, &options,
+                 Workers(program_.settings.jobs));
   attachMembers(files, program_.arena, program_.diagnostics);
   const bool syntaxErrors = program_.diagnostics.errorCount() != configErrors;
   if (config_.library)

@@ -168,6 +168,7 @@ struct Settings {
   unsigned pack = 0;        ///< of the project's structures without pack_mode; 0: natural alignment
   bool softMotion3 = false; ///< defaults that differ by generation are SoftMotion 3's
   bool truncIsInt = false;  ///< TRUNC gives an INT, as in CoDeSys V2.3, instead of a DINT
+  unsigned jobs = 0;        ///< threads at once; 0: defaultJobs()
   std::vector<Define>
       defines; ///< names that `{IF defined (…)}` knows, besides those of stride.toml
 };

@@ -57,6 +57,15 @@ public:
     return reinterpret_cast<void *>(at);
   }
 
+  /// What lives in `other` lives in this one from now on; `other` is empty.
+  void adopt(Arena &&other) {
+    blocks_.reserve(blocks_.size() + other.blocks_.size());
+    for (std::unique_ptr<std::byte[]> &block : other.blocks_)
+      blocks_.push_back(std::move(block));
+    bytes_ += other.bytes_;
+    other = Arena();
+  }
+
   /// Bytes reserved from the heap.
   [[nodiscard]] size_t bytes() const { return bytes_; }
 

@@ -3,6 +3,7 @@
 #include "compiler/source/identifier.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 namespace stc {
@@ -156,6 +157,26 @@ Diagnostic &Diagnostics::report(Code code, Span where, std::string message, std:
   else if (added.severity == Severity::Warning)
     ++warnings_;
   return added;
+}
+
+Diagnostics Diagnostics::part() const {
+  Diagnostics part;
+  part.levels_ = levels_;
+  part.silences_ = silences_;
+  part.inherited_ = silences_.size();
+  part.foreign_ = foreign_;
+  return part;
+}
+
+void Diagnostics::add(Diagnostics &&part) {
+  std::move(part.list_.begin(), part.list_.end(), std::back_inserter(list_));
+  silences_.insert(silences_.end(),
+                   part.silences_.begin() + static_cast<ptrdiff_t>(part.inherited_),
+                   part.silences_.end());
+  foreign_.insert(part.foreign_.begin(), part.foreign_.end());
+  errors_ += part.errors_;
+  warnings_ += part.warnings_;
+  part = {};
 }
 
 void Diagnostics::sort() {

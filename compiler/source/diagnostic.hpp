@@ -149,6 +149,10 @@ public:
   [[nodiscard]] size_t errorCount() const { return errors_; }
   [[nodiscard]] size_t warningCount() const { return warnings_; }
   [[nodiscard]] const std::vector<Diagnostic> &all() const { return list_; }
+  /// An empty collection for a part of the run, with what is silent or foreign here.
+  [[nodiscard]] Diagnostics part() const;
+  /// Adds what a part() has, after what is here.
+  void add(Diagnostics &&part);
   /// Sorts by file and place, stable; drops exact repetitions.
   void sort();
 
@@ -166,6 +170,7 @@ private:
   Diagnostic dropped_;
   Levels levels_;
   std::vector<Silence> silences_; ///< in the order of each file's text
+  size_t inherited_ = 0;          ///< silences of the whole that this is a part() of
   std::set<FileId> foreign_;
   size_t errors_ = 0;
   size_t warnings_ = 0;

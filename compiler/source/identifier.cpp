@@ -23,9 +23,16 @@ Ident Interner::intern(std::string_view spelling, uint32_t hash) {
   for (; slots_[slot] != nullptr; slot = (slot + 1) & mask)
     if (slots_[slot]->hash == hash && sameIdent(slots_[slot]->lower, spelling))
       return slots_[slot];
-  slots_[slot] =
-      arena_.make<IdentData>(arena_.copy(std::string_view(lowerCase(spelling))), size_++, hash);
+  slots_[slot] = make(spelling, hash);
+  ++size_;
   return slots_[slot];
+}
+
+Ident Interner::make(std::string_view spelling, uint32_t hash) {
+  if (shared_ == nullptr)
+    return arena_.make<IdentData>(arena_.copy(std::string_view(lowerCase(spelling))), hash);
+  const std::lock_guard lock(*mutex_);
+  return shared_->intern(spelling, hash);
 }
 
 void Interner::grow() {

@@ -7,6 +7,7 @@
 #include "runtime/common/text.hpp"
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,6 @@ namespace stc {
 /// An identifier; two spellings that differ only in case are the same pointer.
 struct IdentData {
   std::string_view lower; ///< lower-case spelling
-  uint32_t index;         ///< dense, 0-based
   uint32_t hash;          ///< hashIdent() of the spelling
 };
 using Ident = const IdentData *;
@@ -39,9 +39,15 @@ constexpr uint32_t hashIdent(std::string_view spelling) {
   return hash.value();
 }
 
-/// Gives each identifier its IdentData. One per compilation.
+/// Gives each identifier its IdentData. One per compilation; while several threads work, each has
+/// one of its own before that.
 class Interner {
 public:
+  Interner() = default;
+  /// Gives what `shared` gives, which it asks once for each identifier while it holds `mutex`. Both
+  /// must outlive it.
+  Interner(Interner &shared, std::mutex &mutex) : shared_(&shared), mutex_(&mutex) {}
+
   Ident intern(std::string_view spelling) { return intern(spelling, hashIdent(spelling)); }
   /// For callers that know the spelling's hashIdent() already.
   Ident intern(std::string_view spelling, uint32_t hash);
@@ -49,7 +55,10 @@ public:
 
 private:
   void grow();
+  Ident make(std::string_view spelling, uint32_t hash);
 
+  Interner *shared_ = nullptr; ///< null: this is the only one
+  std::mutex *mutex_ = nullptr;
   Arena arena_;
   std::vector<const IdentData *> slots_; ///< open addressing, a power of two
   uint32_t size_ = 0;

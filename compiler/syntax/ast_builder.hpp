@@ -50,16 +50,14 @@ public:
   [[nodiscard]] Span span(const Token &token) const { return {file_, token.begin, token.end}; }
 
 private:
-  using Context = antlr4::ParserRuleContext;
+  using Context = grammar::ContextBase;
 
   // contexts and tokens
-  static Context *child(const Context *context, size_t i) {
-    return static_cast<Context *>(context->children[i]);
-  }
+  static Context *child(const Context *context, size_t i) { return context->children[i]; }
   static size_t first(const Context *context) { return context->start->getTokenIndex(); }
   /// Index of the last token; first() - 1 when the context is empty.
   static size_t last(const Context *context);
-  static bool failed(const Context *context) { return context->exception != nullptr; }
+  static bool failed(const Context *context) { return context->exception.failed(); }
   [[nodiscard]] const Token &token(size_t index) const { return stream_.token(index); }
   [[nodiscard]] std::string_view text(const Token &token) const { return scanner_.text(token); }
   [[nodiscard]] Span span(const Context *context) const;

@@ -6,6 +6,7 @@
 #include "compiler/source/sources.hpp"
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ struct Define {
 
 /// The names that the given files declare, found by their tokens alone: conditions are answered
 /// before anything is parsed. What stands in either branch of an `{IF …}` counts as declared.
+/// Several threads may ask at once.
 class DeclaredNames {
 public:
   enum class Kind : uint8_t { Variable, Type, Pou };
@@ -47,7 +49,7 @@ private:
 
   const Sources &sources_;
   std::vector<FileId> files_;
-  bool isRead_ = false;
+  std::once_flag isRead_;
   std::unordered_multimap<std::string, Entry> names_[3];
 };
 

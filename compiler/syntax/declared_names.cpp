@@ -30,11 +30,10 @@ bool opensPou(uint16_t type) {
 } // namespace
 
 const DeclaredNames::Entry *DeclaredNames::find(Kind kind, std::string_view name, FileId from) {
-  if (!isRead_) {
-    isRead_ = true;
+  std::call_once(isRead_, [this] {
     for (const FileId file : files_)
       read(sources_.file(file));
-  }
+  });
   const auto [begin, end] = names_[static_cast<size_t>(kind)].equal_range(lowerCase(name));
   for (auto it = begin; it != end; ++it)
     if (it->second.local == 0 || it->second.local == from)

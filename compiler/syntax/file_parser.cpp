@@ -34,8 +34,7 @@ FileParser::FileParser(const SourceFile &file, Interner &interner, Arena &arena,
     : file_(file), arena_(arena), diagnostics_(diagnostics), conditions_(options),
       scanner_(file, diagnostics, &conditions_), parser_(&stream_),
       builder_(scanner_, file.id(), stream_, interner, arena, diagnostics),
-      giveUp_(std::make_shared<GiveUpStrategy>()),
-      report_(std::make_shared<ReportStrategy>(parser_, file.text(), file.id(), diagnostics)) {
+      report_(parser_, file.text(), file.id(), diagnostics) {
   unit_.reserve(3072);
   stream_.reset(unit_);
 }

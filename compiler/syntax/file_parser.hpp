@@ -205,8 +205,7 @@ private:
   UnitStream stream_;
   UnitParser parser_;
   AstBuilder builder_;
-  std::shared_ptr<GiveUpStrategy> giveUp_;
-  std::shared_ptr<ReportStrategy> report_;
+  ReportStrategy report_;
 
   Token now_;
   Token ahead_;
@@ -242,16 +241,11 @@ private:
 
 template <class Context> Context *FileParser::parseUnit(Context *(Grammar::*rule)()) {
   finishUnit();
-  parser_.setErrorHandler(giveUp_);
-  parser_.setReporting(false);
-  parser_.reset();
+  parser_.begin(nullptr);
   try {
     return (parser_.*rule)();
   } catch (antlr4::ParseCancellationException &) {
-    parser_.setErrorHandler(report_);
-    parser_.setReporting(true);
-    parser_.reset();
-    parser_.clearExpected(); // where the first run gave up
+    parser_.begin(&report_);
   }
   try {
     return (parser_.*rule)();

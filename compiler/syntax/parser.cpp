@@ -2,11 +2,21 @@
 
 #include "compiler/syntax/file_parser.hpp"
 
+#include <deque>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace stc {
 
 namespace {
+
+/// What each thread has for itself.
+struct ParserState {
+  ParserState(Interner &shared, std::mutex &mutex) : interner(shared, mutex) {}
+  Interner interner;
+  Arena arena;
+};
 
 bool mayHaveMembers(const ast::Decl *decl, uint16_t member) {
   switch (decl->kind) {
@@ -26,6 +36,35 @@ bool mayHaveMembers(const ast::Decl *decl, uint16_t member) {
 ast::File *parse(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics,
                  const ParseOptions *options) {
   return FileParser(file, interner, arena, diagnostics, options).run();
+}
+
+std::vector<ast::File *> parseFiles(std::span<const SourceFile *const> files, Interner &interner,
+                                    Arena &arena, Diagnostics &diagnostics,
+                                    const ParseOptions *options, const Workers &workers) {
+  std::vector<ast::File *> trees(files.size());
+  size_t bytes = 0;
+  for (const SourceFile *file : files)
+    bytes += file->text().size();
+  const unsigned threads = workers.threadsFor(files.size(), bytes);
+  if (threads == 1) {
+    for (size_t i = 0; i < files.size(); ++i)
+      trees[i] = parse(*files[i], interner, arena, diagnostics, options);
+    return trees;
+  }
+  std::mutex mutex; // of `interner`
+  std::deque<ParserState> states;
+  for (unsigned i = 0; i < threads; ++i)
+    states.emplace_back(interner, mutex);
+  std::vector<Diagnostics> found(files.size(), diagnostics.part());
+  Workers::each(files.size(), threads, [&](size_t i, unsigned thread) {
+    ParserState &state = states[thread];
+    trees[i] = parse(*files[i], state.interner, state.arena, found[i], options);
+  });
+  for (Diagnostics &one : found)
+    diagnostics.add(std::move(one));
+  for (ParserState &state : states)
+    arena.adopt(std::move(state.arena));
+  return trees;
 }
 
 void attachMembers(std::span<ast::File *const> files, Arena &arena, Diagnostics &diagnostics) {

@@ -6,8 +6,12 @@
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/identifier.hpp"
 #include "compiler/source/sources.hpp"
+#include "compiler/source/workers.hpp"
 #include "compiler/syntax/ast.hpp"
 #include "compiler/syntax/conditions.hpp"
+
+#include <span>
+#include <vector>
 
 namespace stc {
 
@@ -22,6 +26,12 @@ inline constexpr size_t kMaxName = 255;
 /// `options` answer the conditions of `{IF …}`.
 ast::File *parse(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics,
                  const ParseOptions *options = nullptr);
+
+/// Parses several files at once. Trees, diagnostics and their order are those of one parse() after
+/// the other, whatever the number of threads.
+[[nodiscard]] std::vector<ast::File *>
+parseFiles(std::span<const SourceFile *const> files, Interner &interner, Arena &arena,
+           Diagnostics &diagnostics, const ParseOptions *options, const Workers &workers);
 
 /// Gives the methods, properties and actions that name a block of another file (`METHOD Block.m`)
 /// to that block; reports those that find none.

@@ -142,7 +142,7 @@ inline uint16_t closerOf(size_t rule) {
 }
 
 /// An assignment whose right side was reached.
-inline bool hasValue(const antlr4::ParserRuleContext *statement) {
+inline bool hasValue(const grammar::ContextBase *statement) {
   return !statement->children.empty() &&
          static_cast<const antlr4::RuleContext *>(statement->children.back())->getRuleIndex() ==
              Grammar::RuleExpression;

@@ -29,8 +29,7 @@ bool Addressed::onDataStack(const VarSymbol *variable) {
   const bool isPassed = variable->section == Section::Input || variable->section == Section::InOut;
   if (!isPassed && storage_.of(variable->type).size > kLarge)
     return true;
-  if (!known_)
-    find();
+  prepare();
   return exposed_.contains(variable);
 }
 

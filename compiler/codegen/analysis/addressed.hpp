@@ -19,6 +19,11 @@ class Addressed {
 public:
   /// `own`: whose code is generated.
   Addressed(const Program &program, const Library *own) : program_(program), own_(own) {}
+  /// Follows them now, so that copies need not do it.
+  void prepare() {
+    if (!known_)
+      find();
+  }
 
   /// A local variable, input or result of a function or method, a VAR_TEMP: it lies on the data
   /// stack. An output or in-out: so does the temporary that a caller gives for it.

@@ -28,8 +28,7 @@ bool isReachedOtherwise(const PouSymbol *pou) {
 bool Repetition::isRepeated(const PouSymbol *pou) {
   if (!own_->isUser && !own_->isBuilt)
     return true;
-  if (!known_)
-    find();
+  prepare();
   return repeated_.contains(pou);
 }
 

@@ -17,6 +17,11 @@ class Repetition {
 public:
   /// `own`: whose code is generated.
   Repetition(const Program &program, const Library *own) : program_(program), own_(own) {}
+  /// Follows them now, so that copies need not do it.
+  void prepare() {
+    if (!known_)
+      find();
+  }
 
   /// The POU is called in a loop (by its own caller, or by one further up), or calls itself.
   [[nodiscard]] bool isRepeated(const PouSymbol *pou);

@@ -23,7 +23,7 @@
 
 namespace stc::codegen {
 
-/// What all files of one run share.
+/// What all files of one run share; of several threads each has a copy.
 struct Context {
   const Program &program;
   const Library *own; ///< the library (or project) whose files are generated
@@ -38,6 +38,12 @@ struct Context {
   Context(const Program &p, const Library *library)
       : program(p), own(library), names(p), layouts(p, library), analysis(p), loopLocals(analysis),
         addressed(p, library), plainCalls(p, addressed), repetition(p, library) {}
+  /// Goes on with the names that `whole` has given and what it has found out.
+  Context(const Context &whole)
+      : program(whole.program), own(whole.own), names(whole.names), layouts(whole.layouts),
+        analysis(whole.program), loopLocals(analysis), addressed(whole.addressed),
+        plainCalls(whole.program, addressed), repetition(whole.repetition) {}
+  Context &operator=(const Context &) = delete;
 };
 
 /// What the call's context is called in the code of POUs.

@@ -100,9 +100,17 @@ Symbol *Lookup::self(const Scope &scope, const Name &name) {
   return symbol;
 }
 
+/// Every name that stands for nothing else asks, again and again: plain enumerators do.
+bool Lookup::isStandardLibrary(Ident id) {
+  const auto [known, isNew] = isLibrary_.try_emplace(id, false);
+  if (isNew)
+    known->second = index_.isLibrary(id->lower);
+  return known->second;
+}
+
 Symbol *Lookup::library(const Scope &scope, const Name &name) {
   const std::string own = ownLibrary(scope, name.id->lower);
-  if (own.empty() && !index_.isLibrary(name.id->lower))
+  if (own.empty() && !isStandardLibrary(name.id))
     return nullptr;
   auto *symbol = arena_.make<LibrarySymbol>();
   symbol->kind = SymbolKind::Library;

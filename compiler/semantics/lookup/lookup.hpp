@@ -157,6 +157,7 @@ private:
   /// Where Stride's libraries declare it. One of the project replaces a foreign one of its name.
   [[nodiscard]] std::vector<LibraryIndex::Entry> standardEntries(Ident id) const;
   Symbol *listOfLibraries(const Scope &scope, Ident id) const;
+  bool isStandardLibrary(Ident id);
   FoundEnumerator enumeratorOfLibraries(const Scope &scope, Ident id);
   FoundEnumerator usedEnumerator(const Scope &scope, Ident id);
 
@@ -168,7 +169,8 @@ private:
   std::unordered_map<std::string, std::unique_ptr<Module>> modules_; ///< by library
   std::unordered_map<Ident, BuiltinSymbol *> builtins_;
   std::unordered_map<Ident, Symbol *>
-      inLibraries_; ///< of Stride: what has been found, also nothing
+      inLibraries_;                           ///< of Stride: what has been found, also nothing
+  std::unordered_map<Ident, bool> isLibrary_; ///< what the index has answered
   std::unordered_map<std::string, const Module *> own_; ///< own libraries, by name in lower case
   ConfigurationParts configuration_;
 };

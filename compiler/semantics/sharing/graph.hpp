@@ -46,6 +46,18 @@ struct PlaceNode {
   [[nodiscard]] const VarSymbol *variable() const;
 };
 
+/// By the place of the declaration, so that results do not depend on where symbols lie.
+struct DeclaredFirst {
+  template <class Rest>
+  bool operator()(const std::pair<const VarSymbol *, Rest> &a,
+                  const std::pair<const VarSymbol *, Rest> &b) const {
+    return a.first != b.first ? isBefore(a.first, b.first) : a.second < b.second;
+  }
+
+private:
+  static bool isBefore(const VarSymbol *a, const VarSymbol *b);
+};
+
 /// A node as the tasks in question use it.
 struct NodeView {
   const PlaceNode *node = nullptr;
@@ -73,6 +85,7 @@ private:
   [[nodiscard]] std::pair<const VarSymbol *, uint32_t> key(const VarSymbol *v, uint32_t task) const;
   Nodes nodesAt(const PlacePath &place, uint32_t task);
   PlaceNode &rootNode(const Symbol *symbol);
+  void useRoot(const PlaceAccess &access);
   void useImage(uint32_t task, const ImageAccess &access);
   void concludeImage();
   void concludeWriters();
@@ -116,7 +129,7 @@ private:
   std::vector<const Symbol *> rootOrder_;
   /// What the bodies of blocks and programs do to their own variables, for all instances.
   std::unordered_map<const Symbol *, std::unique_ptr<PlaceNode>> own_;
-  std::map<std::pair<const VarSymbol *, uint32_t>, Nodes> leads_;
+  std::map<std::pair<const VarSymbol *, uint32_t>, Nodes, DeclaredFirst> leads_;
   std::unordered_set<const PouSymbol *> ofEvents_; ///< what asking an event calls
   struct CopyReads {
     std::set<uint32_t> tasks;

@@ -100,7 +100,7 @@ void SharingGraph::visit(const std::vector<NodeView> &views, const Path &path,
 
 void SharingGraph::visitInside(const std::vector<NodeView> &views, const TaskUses &own,
                                const Path &path, const TaskUses &inherited, bool quiet) {
-  std::map<std::pair<const VarSymbol *, int64_t>, std::vector<NodeView>> members;
+  std::map<std::pair<const VarSymbol *, int64_t>, std::vector<NodeView>, DeclaredFirst> members;
   bool anyElement = false;
   for (const NodeView &view : views) {
     for (const auto &[step, child] : view.node->children)

@@ -6,6 +6,7 @@
 #include "compiler/semantics/sharing/graph.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace stc {
 
@@ -110,6 +111,15 @@ void TaskUse::merge(const TaskUse &other) {
 
 // ----------------------------------------------------------------------------------------------------
 // the trees
+
+bool DeclaredFirst::isBefore(const VarSymbol *a, const VarSymbol *b) {
+  if (a == nullptr || b == nullptr)
+    return a == nullptr && b != nullptr;
+  const auto place = [](const VarSymbol *v) {
+    return std::tuple(v->name.span.file, v->name.span.begin, v->name.id->lower, v);
+  };
+  return place(a) < place(b);
+}
 
 PlaceNode &PlaceNode::child(const AccessStep &step) {
   int depth = 0;
@@ -299,6 +309,13 @@ bool SharingGraph::flowOnce(uint32_t task, const PouAccess &access) {
   return changed;
 }
 
+/// Of a single task only what it writes is asked, by variables and programs: where in them, and by
+/// which address, does not matter.
+void SharingGraph::useRoot(const PlaceAccess &access) {
+  if (access.place.base == PlacePath::Base::Root)
+    rootNode(access.place.symbol).use(0, access.flags, access.span);
+}
+
 void SharingGraph::solve() {
   const auto count = static_cast<uint32_t>(tasks_.size());
   for (uint32_t task = 0; task < count; ++task)
@@ -324,10 +341,11 @@ void SharingGraph::solve() {
     for (const PouSymbol *pou : reached_[task]) {
       const PouAccess &access = accessOf(pou);
       for (const PlaceAccess &a : access.accesses) {
-        if (readsCopy(task, pou, a))
-          continue;
-        for (PlaceNode *node : nodesAt(a.place, task))
-          node->use(task, a.flags, a.span);
+        if (count == 1)
+          useRoot(a);
+        else if (!readsCopy(task, pou, a))
+          for (PlaceNode *node : nodesAt(a.place, task))
+            node->use(task, a.flags, a.span);
       }
       for (const ImageAccess &a : access.image)
         useImage(task, a);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <mutex>
 #include <string>
+#include <vector>
 
 namespace stc {
 namespace {
@@ -16,15 +18,28 @@ TEST(Interner, IgnoresCase) {
   EXPECT_EQ(interner.size(), 2U);
 }
 
-TEST(Interner, KeepsIndicesAndAddressesWhileItGrows) {
+TEST(Interner, KeepsAddressesWhileItGrows) {
   Interner interner;
-  const Ident first = interner.intern("x0");
-  for (int i = 1; i < 5000; ++i)
-    EXPECT_EQ(interner.intern("x" + std::to_string(i))->index, static_cast<uint32_t>(i));
+  std::vector<Ident> all;
   for (int i = 0; i < 5000; ++i)
-    EXPECT_EQ(interner.intern("X" + std::to_string(i))->index, static_cast<uint32_t>(i));
-  EXPECT_EQ(interner.intern("X0"), first);
+    all.push_back(interner.intern("x" + std::to_string(i)));
+  for (int i = 0; i < 5000; ++i)
+    EXPECT_EQ(interner.intern("X" + std::to_string(i)), all[static_cast<size_t>(i)]);
   EXPECT_EQ(interner.size(), 5000U);
+}
+
+TEST(Interner, OfAThreadGivesWhatTheSharedOneGives) {
+  Interner shared;
+  std::mutex mutex;
+  const Ident early = shared.intern("early");
+  Interner one(shared, mutex), other(shared, mutex);
+  EXPECT_EQ(one.intern("Early"), early);
+  for (int i = 0; i < 5000; ++i) // grows
+    one.intern("x" + std::to_string(i));
+  EXPECT_EQ(other.intern("X4999"), one.intern("x4999"));
+  EXPECT_EQ(other.intern("X4999"), shared.intern("x4999"));
+  EXPECT_EQ(shared.size(), 5001U);
+  EXPECT_EQ(other.size(), 1U);
 }
 
 TEST(Interner, HashIsTheCallersHash) {
