@@ -118,7 +118,7 @@ TEST(TranslationUnits, LargeSourceIsAlone) {
 }
 
 TEST(TranslationUnits, WhatRunsOnceIsInLargerUnits) {
-  for (const size_t over : {0, 1}) {
+  for (const size_t over : {size_t{0}, size_t{1}}) {
     const auto files = [&] {
       return std::vector<GeneratedFile>{
           {"app.cpp", "t"}, source("Cold", kMostOnce - 10, true), source("Ice", 10 + over, true)};
