@@ -404,12 +404,7 @@ private:
   int64_t cornersLooked_ = 0;
 };
 
-/// More cases by hand: STRIDE_GROUP_CASES=10000; all cycles in parts: STRIDE_GROUP_PARTS=1.
-int wanted(int cases) {
-  const char *const more = std::getenv("STRIDE_GROUP_CASES");
-  return more != nullptr ? std::atoi(more) : casesOf(cases);
-}
-
+// All cycles in parts by hand: STRIDE_GROUP_PARTS=1.
 TEST(GroupMotion, KeepsLimitsAndArrives) {
   const char *const only = std::getenv("STRIDE_GROUP_CASE");
   const int cases = wanted(100);
