@@ -4,8 +4,8 @@
 usage: tidy.py BUILD [--jobs N] [--changed COMMIT [--most N]]
 
 Takes the commands of BUILD (several sources at once, where the build does so), without the precompiled headers of
-another compiler. With --changed only what is compiled from sources that differ from COMMIT, and for each such header one
-unit that includes it, the last changed first; with --most no more than N units. Each finding is shown once.
+another compiler. With --changed only sources that differ from COMMIT, and for each such header one source that includes
+it: of each unit these, the last changed unit first; with --most no more than N units. Each finding is shown once.
 """
 import argparse
 import concurrent.futures
@@ -31,7 +31,7 @@ def without_precompiled(command):
         if words[i] == "-include" and "cmake_pch" in words[i + 1]:
             i += 2
             continue
-        if words[i] != "-Winvalid-pch":
+        if words[i] != "-Winvalid-pch" and not words[i].startswith("--param="):
             kept.append(words[i])
         i += 1
     return kept
@@ -56,19 +56,31 @@ def names_since(commit):
 
 
 def choose(units, commit):
-    """The units that sources are compiled in that differ from the commit, and one for each such header."""
-    includes = {unit["file"]: "".join(pathlib.Path(source).read_text(encoding="utf-8") for source in sources_of(unit))
-                for unit in units}
+    """The units with sources that differ from the commit, and with one for each such header: each with these sources only."""
+    texts = {source: pathlib.Path(source).read_text(encoding="utf-8") for unit in units for source in sources_of(unit)}
+    unit_of = {source: unit for unit in reversed(units) for source in sources_of(unit)}
     chosen = {}
     for name in names_since(commit):
-        for unit in units:
-            if str(ROOT / name) in sources_of(unit):
-                chosen[unit["file"]] = unit
+        if str(ROOT / name) in texts:
+            chosen[str(ROOT / name)] = None
         if name.endswith((".hpp", ".h", ".def")):
-            including = [unit for unit in units if f'#include "{name}"' in includes[unit["file"]]]
-            if including and not any(unit["file"] in chosen for unit in including):
-                chosen[including[0]["file"]] = including[0]
-    return list(chosen.values())
+            including = [source for source, text in texts.items() if f'#include "{name}"' in text]
+            if including and not any(source in chosen for source in including):
+                chosen[including[0]] = None
+    parts = {}
+    for source in chosen:
+        parts.setdefault(unit_of[source]["file"], (unit_of[source], []))[1].append(source)
+    return list(parts.values())
+
+
+def reduced(unit, sources, folder, number):
+    """The unit with some of its sources only, in a file of that folder; itself where these are all."""
+    if len(sources) == len(sources_of(unit)):
+        return unit
+    path = pathlib.Path(folder) / f"part_{number}.cxx"
+    path.write_text("".join(f'#include "{source}"\n' for source in sources), encoding="utf-8")
+    words = [str(path) if word == unit["file"] else word for word in unit["arguments"]]
+    return dict(unit, file=str(path), arguments=words)
 
 
 def main():
@@ -83,9 +95,12 @@ def main():
              if all(source.startswith(OURS) for source in sources_of(unit))]
     for unit in units:
         del unit["command"]
-    chosen = choose(units, options.changed)[:options.most] if options.changed else units
     with tempfile.TemporaryDirectory() as folder:
-        (pathlib.Path(folder) / "compile_commands.json").write_text(json.dumps(units), encoding="utf-8")
+        chosen = units
+        if options.changed:
+            chosen = [reduced(unit, sources, folder, number)
+                      for number, (unit, sources) in enumerate(choose(units, options.changed)[:options.most])]
+        (pathlib.Path(folder) / "compile_commands.json").write_text(json.dumps(chosen), encoding="utf-8")
 
         def tidy(unit):
             return subprocess.run(["clang-tidy", "-p", folder, "--quiet", unit["file"]], capture_output=True, text=True,

@@ -15,7 +15,7 @@ namespace {
 
 using namespace stride::csy;
 
-std::string shown(double value) {
+std::string shortText(double value) {
   if (value == stride::exact::kInfinity)
     return "no limit";
   const std::string text = fmt::format("{:.3f}", value);
@@ -23,7 +23,7 @@ std::string shown(double value) {
 }
 
 std::string speedOf(double value) {
-  return value == stride::exact::kInfinity ? shown(value) : shown(value) + " mm/s";
+  return value == stride::exact::kInfinity ? shortText(value) : shortText(value) + " mm/s";
 }
 
 std::string resultsOf(const CsyPath &path) {
@@ -44,8 +44,8 @@ std::string resultsOf(const CsyPath &path) {
       text += fmt::format("  {:<5}  {:>4}  {:<8}  {:>12}{:>12}{:>12}\n",
                           k == 0 ? fmt::format("P{}", i) : std::string(),
                           k == 0 ? fmt::format("{}", type) : std::string(), end,
-                          shown(table[0][2 * i + k]), shown(table[1][2 * i + k]),
-                          shown(table[2][2 * i + k]));
+                          shortText(table[0][2 * i + k]), shortText(table[1][2 * i + k]),
+                          shortText(table[2][2 * i + k]));
     }
   }
   return text;
@@ -60,7 +60,7 @@ std::string describe(const std::string &file, const CsyPath &path) {
                      "  closed          {}\n"
                      "  constant speed  {}\n",
                      file, trajectory.points, lengthOfTable(path.table.axes, trajectory.points),
-                     shown(trajectory.length), trajectory.camPoints,
+                     shortText(trajectory.length), trajectory.camPoints,
                      trajectory.camPoints + kSpareCamPoints, isClosed(trajectory) ? "yes" : "no",
                      speedOf(constantSpeed(trajectory, path.speeds))) +
          resultsOf(path);

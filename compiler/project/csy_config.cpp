@@ -53,7 +53,7 @@ constexpr std::array<Choice, 5> kShapes = {{{"rectangle", 100},
                                             {"triangle", 200}}};
 constexpr std::array<Choice, 2> kInterpolations = {{{"linear", 0}, {"cubic", 1}}};
 constexpr std::array<Choice, 2> kPositions = {{{"measured", 0}, {"setpoint", 1}}};
-constexpr std::array<Choice, 2> kOnStop = {{{"fallback", 0}, {"hold", 1}}};
+constexpr std::array<Choice, 2> kChannelOnStop = {{{"fallback", 0}, {"hold", 1}}};
 constexpr std::array<Choice, 2> kLinks = {{{"gear", 0}, {"cam", 1}}};
 // The numbers are those of bits 8 to 10 of FOLL_DESCRIPTION.
 constexpr std::array<Choice, 5> kStarts = {
@@ -150,7 +150,7 @@ constexpr std::array kModuleAxisKeys = {
     identifier("axis"),
     identifier("encoder"),
     positive("manual_speed", "speed").defaultsTo(1),
-    choice("on_stop", kOnStop),
+    choice("on_stop", kChannelOnStop),
 };
 constexpr std::array<const SectionSchema *, 1> kModuleAxisSections = {&kModuleAxisParameters};
 constexpr SectionSchema kModuleAxis = {"axis", "an axis of a module", "csy.axis",
@@ -166,8 +166,8 @@ constexpr SectionSchema kModuleCam = {"cam", "a cam of a module", "csy.cam",
 constexpr auto kModuleSlaveKeys = rows(kSlaveFields, std::array<Parameter, 0>{});
 constexpr SectionSchema kModuleSlave = {"slave", "a slave",        "csy.follower.slave",
                                         true,    kModuleSlaveKeys, {}};
-constexpr std::array kModuleFollowerKeys = {whole("channel", 21, 24).needed(),
-                                            whole("master", 1, 16), choice("on_stop", kOnStop)};
+constexpr std::array kModuleFollowerKeys = {
+    whole("channel", 21, 24).needed(), whole("master", 1, 16), choice("on_stop", kChannelOnStop)};
 constexpr std::array<const SectionSchema *, 1> kModuleFollowerSections = {&kModuleSlave};
 constexpr SectionSchema kModuleFollower = {"follower",          "a follower group",
                                            "csy.follower",      true,
@@ -175,13 +175,14 @@ constexpr SectionSchema kModuleFollower = {"follower",          "a follower grou
 
 constexpr std::array kModuleCoordinatedKeys = {whole("channel", 17, 20).needed(),
                                                Parameter{"axes", ParameterType::NameList, true},
-                                               choice("on_stop", kOnStop)};
+                                               choice("on_stop", kChannelOnStop)};
 constexpr SectionSchema kModuleCoordinated = {
     "coordinated", "a coordinated group", "csy.coordinated", true, kModuleCoordinatedKeys, {}};
 
-constexpr auto kCsyKeys = rows(kModuleFields, std::array{whole("rack", 0, kLastRack).needed(),
-                                                         whole("slot", 0, kLastSlot).needed(),
-                                                         choice("on_stop", kOnStop).defaultsTo(0)});
+constexpr auto kCsyKeys =
+    rows(kModuleFields,
+         std::array{whole("rack", 0, kLastRack).needed(), whole("slot", 0, kLastSlot).needed(),
+                    choice("on_stop", kChannelOnStop).defaultsTo(0)});
 constexpr std::array<const SectionSchema *, 4> kCsySections = {
     &kModuleAxis, &kModuleCam, &kModuleFollower, &kModuleCoordinated};
 constexpr SectionSchema kCsy = {"csy", "a module", "csy", true, kCsyKeys, kCsySections};

@@ -29,7 +29,7 @@ std::string spelledAnew(const std::string &path) {
   return folder + '/' + given.filename().string();
 }
 
-std::string durationText(int64_t ns) {
+std::string intervalText(int64_t ns) {
   if (ns == 0)
     return "none";
   for (const auto &[unit, name] : {std::pair{1'000'000'000, "s"}, {1'000'000, "ms"}, {1'000, "us"}})
@@ -95,7 +95,7 @@ void OnlineChange::compareTasks() {
     if (a.kind != b.kind)
       differs("kind", task::kindName(b.kind), task::kindName(a.kind));
     if (a.intervalNs != b.intervalNs)
-      differs("interval", durationText(b.intervalNs), durationText(a.intervalNs));
+      differs("interval", intervalText(b.intervalNs), intervalText(a.intervalNs));
     if (a.priority != b.priority)
       differs("priority", std::to_string(b.priority), std::to_string(a.priority));
     if (a.sync != b.sync)

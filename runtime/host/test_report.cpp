@@ -15,7 +15,7 @@ namespace stride::host {
 namespace {
 
 /// T#1s500ms
-std::string durationText(int64_t ns) {
+std::string timeLiteral(int64_t ns) {
   char text[stride::text::kBufferSize];
   stride::text::formatLtime(text, ns);
   return std::string("T") + std::strchr(text, '#');
@@ -53,7 +53,7 @@ std::string escaped(std::string_view text) {
 } // namespace
 
 std::string describeFailure(const TestFailure &failure, const std::string &root) {
-  const std::string when = fmt::format("cycle {}, {}", failure.cycle, durationText(failure.timeNs));
+  const std::string when = fmt::format("cycle {}, {}", failure.cycle, timeLiteral(failure.timeNs));
   if (!failure.text.empty()) { // says itself where it was
     std::string out = "  ";
     for (const char c : failure.text)

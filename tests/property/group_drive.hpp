@@ -478,12 +478,6 @@ private:
   double lastMiddle_ = 0; ///< Sine of the wrist's middle axis.
 };
 
-/// More cases by hand: STRIDE_GROUP_CASES=10000; all cycles in parts: STRIDE_GROUP_PARTS=1.
-inline int drivesWanted(int cases) {
-  const char *const more = std::getenv("STRIDE_GROUP_CASES");
-  return more != nullptr ? std::atoi(more) : casesOf(cases);
-}
-
 } // namespace stride::test
 
 #endif // STRIDE_TESTS_PROPERTY_GROUP_DRIVE_HPP

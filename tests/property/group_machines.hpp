@@ -9,13 +9,22 @@
 #include "runtime/numeric/kinematics/planar_arms.hpp"
 #include "runtime/numeric/kinematics/portals.hpp"
 
+#include "tests/support/cases.hpp"
+
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 
 namespace stride::test {
 
 using group::AxisLimits;
 using group::kAxes;
+
+/// How many random cases a test takes. Others by hand: STRIDE_GROUP_CASES=10000.
+inline int wanted(int cases) {
+  const char *const more = std::getenv("STRIDE_GROUP_CASES");
+  return more != nullptr ? std::atoi(more) : casesOf(cases);
+}
 
 /// A machine: its kinematics, its axes' limits, and where it is at first.
 struct Machine {

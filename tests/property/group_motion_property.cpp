@@ -9,7 +9,7 @@ using namespace stride::test;
 
 TEST(GroupMotion, KeepsLimitsAndArrives) {
   const char *const only = std::getenv("STRIDE_GROUP_CASE");
-  const int cases = drivesWanted(100);
+  const int cases = wanted(100);
   const char *const parts = std::getenv("STRIDE_GROUP_PARTS");
   const int rarely = parts != nullptr ? std::atoi(parts) : 32;
   int failed = 0;

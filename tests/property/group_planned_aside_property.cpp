@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -181,12 +180,6 @@ private:
   double value_ = 1;
   double slope_ = 0;
 };
-
-/// More cases by hand: STRIDE_GROUP_CASES=400.
-int wanted(int cases) {
-  const char *const more = std::getenv("STRIDE_GROUP_CASES");
-  return more != nullptr ? std::atoi(more) : casesOf(cases);
-}
 
 /// The velocity is one that the override has asked for within a known time before: that of two
 /// plans, each of which begins after the forecast, and of a ramp.

@@ -27,11 +27,11 @@ enum class Habit {
 };
 
 /// One random job, planned in its own task and in another one.
-class Comparison {
+class AsideComparison {
   static constexpr int kParts = 16; ///< Of a cycle, between which limits are looked at.
 
 public:
-  Comparison(unsigned seed, Habit habit, bool givesAxes)
+  AsideComparison(unsigned seed, Habit habit, bool givesAxes)
       : jobs_(seed, givesAxes), list_(jobs_.make(5)), arm_(jobs_.machine().arm()), habit_(habit),
         cycle_(jobs_.random().magnitude(-3.3, -2.7)),
         every_(1 + jobs_.random().below(habit == Habit::Punctual ? 4 : 12)),
@@ -252,12 +252,6 @@ private:
   int64_t taken_ = 1;
 };
 
-/// More cases by hand: STRIDE_GROUP_CASES=10000.
-int wanted(int cases) {
-  const char *const more = std::getenv("STRIDE_GROUP_CASES");
-  return more != nullptr ? std::atoi(more) : casesOf(cases);
-}
-
 void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slower,
              bool changes = false, bool slides = false, bool givesAxes = false) {
   const char *const only = std::getenv("STRIDE_GROUP_CASE");
@@ -267,7 +261,7 @@ void compare(Habit habit, bool disturbs, unsigned seed, int cases, double &slowe
   for (int i = only != nullptr ? std::atoi(only) : 0; i < cases && !testing::Test::HasFailure();
        ++i) {
     SCOPED_TRACE(testing::Message() << "case " << i);
-    Comparison comparison(seed + static_cast<unsigned>(i), habit, givesAxes);
+    AsideComparison comparison(seed + static_cast<unsigned>(i), habit, givesAxes);
     comparison.disturbs(disturbs);
     comparison.changes(changes);
     comparison.slides(slides);

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 
 namespace {
@@ -281,11 +280,6 @@ private:
   Worst worst_;
   bool steady_ = true;
 };
-
-int wanted(int cases) {
-  const char *const more = std::getenv("STRIDE_GROUP_CASES");
-  return more != nullptr ? std::atoi(more) : casesOf(cases);
-}
 
 Worst driveAll(bool nonlinear, CarrierKind kind, bool steady, bool aside) {
   Worst worst;

@@ -10,7 +10,7 @@ using namespace stride::test;
 
 TEST(GroupToolAxes, GoEvenlyWithinLimits) {
   const char *const only = std::getenv("STRIDE_GROUP_CASE");
-  const int cases = drivesWanted(40);
+  const int cases = wanted(40);
   const char *const parts = std::getenv("STRIDE_GROUP_PARTS");
   const int rarely = parts != nullptr ? std::atoi(parts) : 32;
   int failed = 0;

@@ -46,9 +46,9 @@ struct Trigger {
   double way; ///< Of the motion; negative: not known. [u]
 };
 
-class Drive {
+class TriggeredDrive {
 public:
-  explicit Drive(unsigned seed)
+  explicit TriggeredDrive(unsigned seed)
       : random_(seed), machine_(portalOrScara(random_)), group_(std::make_unique<GroupMotion>()),
         copy_(std::make_unique<GroupMotion>()), cycle_(random_.magnitude(-3, -2.3)),
         keep_(random_.chance(0.3) ? 0 : random_.magnitude(-2, -0.3)), arm_(machine_.arm()) {
@@ -272,7 +272,7 @@ TEST(GroupTrigger, ComesWhenItIsForetold) {
   int bisected = 0;
   for (unsigned seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
-    Drive drive(seed);
+    TriggeredDrive drive(seed);
     drive.run(seed % 20 == 0 ? 40 : 8); // also more than are remembered at once
     reached += drive.reached();
     inCorners += drive.inCorners();

@@ -18,7 +18,7 @@ namespace nc = stride::nc;
 namespace cnc = stride::cnc;
 
 /// So many sentences are carried out in loops.
-constexpr size_t kMostSentences = 1000000;
+constexpr size_t kMostNcSentences = 1000000;
 
 struct ErrorText {
   nc::Error error;
@@ -93,7 +93,7 @@ public:
   std::optional<CncProgram> expand() {
     begin();
     const bool sub = enterOwn();
-    for (size_t left = kMostSentences; !over_; --left) {
+    for (size_t left = kMostNcSentences; !over_; --left) {
       if (left == 0) {
         report(Code::CncJump, program_.span, "the jumps of this program do not end");
         break;

@@ -1,0 +1,3 @@
+// What kinematics is made of, for all that includes it.
+#include <Eigen/Core>
+#include <Eigen/Geometry>
