@@ -1,6 +1,7 @@
 #include "compiler/project/build.hpp"
 
 #include "compiler/project/file_system.hpp"
+#include "compiler/project/include_graph.hpp"
 #include "compiler/project/job_pool.hpp"
 #include "compiler/project/made_files.hpp"
 #include "compiler/project/output_folder.hpp"
@@ -13,7 +14,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -26,21 +26,6 @@ namespace {
 // In the folder of emitted sources: the names of those that Stride has written there.
 constexpr std::string_view kEmittedList = ".stride-sources";
 constexpr uintmax_t kMaxListBytes = 16U << 20U; // of whatever a project ships under that name
-
-// Names in `#include "…"` of a generated text.
-std::vector<std::string> includesOf(std::string_view text) {
-  constexpr std::string_view kInclude = "#include \"";
-  std::vector<std::string> names;
-  for (size_t at = text.find(kInclude); at != std::string_view::npos;
-       at = text.find(kInclude, at)) {
-    at += kInclude.size();
-    const size_t end = text.find('"', at);
-    if (end == std::string_view::npos)
-      break;
-    names.emplace_back(text.substr(at, end - at));
-  }
-  return names;
-}
 
 // A name of a generated file, as opposed to whatever else a list may hold.
 bool isGeneratedName(const fs::path &name) {
@@ -63,8 +48,7 @@ public:
     if (!findToolchain() || !openCache())
       return std::nullopt;
     units_ = divideIntoUnits(files_);
-    for (const GeneratedFile &file : files_)
-      byPath_.emplace(file.path, &file);
+    includes_.emplace(files_);
     base_ = identityOf(toolchain_, *cache_, work_->path());
     return compileAndLink();
   }
@@ -190,30 +174,19 @@ private:
 
   // ---- compiling
 
-  // Everything a translation unit depends on besides the tool chain: its text and the generated
-  // headers it includes.
-  std::string keyOf(const GeneratedFile &unit, bool runsOnce) const {
+  // Everything a translation unit depends on besides the tool chain.
+  std::string keyOf(const TranslationUnit &unit) {
     ContentHash hash = base_;
-    hash.add(uint64_t{runsOnce});
-    std::vector<const GeneratedFile *> pending = {&unit};
-    std::unordered_set<const GeneratedFile *> seen = {&unit};
-    while (!pending.empty()) {
-      const GeneratedFile *file = pending.back();
-      pending.pop_back();
-      hash.add(file->path).add(file->text);
-      for (const std::string &name : includesOf(file->text))
-        if (const auto found = byPath_.find(name);
-            found != byPath_.end() && seen.insert(found->second).second)
-          pending.push_back(found->second);
-    }
+    hash.add(uint64_t{unit.runsOnce});
+    for (const GeneratedFile *file : includes_->closureOf(unit.path))
+      hash.add(includes_->hashOf(*file));
     return hash.hex();
   }
 
-  std::vector<Unit> units() const {
+  std::vector<Unit> units() {
     std::vector<Unit> units;
     for (const TranslationUnit &unit : units_)
-      units.push_back({&unit, keyOf(*byPath_.at(unit.path), unit.runsOnce),
-                       work_->path() / fmt::format("{}.o", units.size())});
+      units.push_back({&unit, keyOf(unit), work_->path() / fmt::format("{}.o", units.size())});
     return units;
   }
 
@@ -256,9 +229,11 @@ private:
       if (!cache_->fetch(unit.key, ".o", unit.object))
         outdated.push_back(unit);
     compiled = outdated.size();
-    for (const GeneratedFile &file : files_)
-      if (!outdated.empty() && !writeFile(sources_ / file.path, file.text))
-        return cannotWrite(sources_ / file.path);
+    std::unordered_set<const GeneratedFile *> written;
+    for (const Unit &unit : outdated)
+      for (const GeneratedFile *file : includes_->closureOf(unit.source->path))
+        if (written.insert(file).second && !writeFile(sources_ / file->path, file->text))
+          return cannotWrite(sources_ / file->path);
     const fs::path linked = work_->path() / ("linked" + std::string(kind()));
     if (!compile(outdated) || !linkTo(linked, all))
       return false;
@@ -454,7 +429,7 @@ private:
   ContentHash base_; ///< the tool chain's
   std::vector<GeneratedFile> files_;
   std::vector<TranslationUnit> units_;
-  std::unordered_map<std::string, const GeneratedFile *> byPath_;
+  std::optional<IncludeGraph> includes_;
 };
 
 } // namespace
