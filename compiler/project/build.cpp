@@ -1,6 +1,7 @@
 #include "compiler/project/build.hpp"
 
 #include "compiler/project/file_system.hpp"
+#include "compiler/project/include_graph.hpp"
 #include "compiler/project/job_pool.hpp"
 #include "compiler/project/made_files.hpp"
 #include "compiler/project/output_folder.hpp"
@@ -14,7 +15,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -49,8 +49,7 @@ public:
     if (!findToolchain() || !openCache())
       return std::nullopt;
     units_ = divideIntoUnits(files_);
-    for (const GeneratedFile &file : files_)
-      byPath_.emplace(file.path, &file);
+    includes_.emplace(files_);
     base_ = identityOf(toolchain_, *cache_, work_->path());
     return compileAndLink();
   }
@@ -176,21 +175,19 @@ private:
 
   // ---- compiling
 
-  // Everything a translation unit depends on besides the tool chain: its text and the generated
-  // headers it includes.
-  std::string keyOf(const GeneratedFile &unit, bool runsOnce) const {
+  // Everything a translation unit depends on besides the tool chain.
+  std::string keyOf(const TranslationUnit &unit) {
     ContentHash hash = base_;
-    hash.add(uint64_t{runsOnce}).add(uint64_t{precompilesHeaders(toolchain_, units_.size())});
-    for (const GeneratedFile *file : withIncluded(unit, byPath_))
-      hash.add(file->path).add(file->text);
+    hash.add(uint64_t{unit.runsOnce}).add(uint64_t{precompilesHeaders(toolchain_, units_.size())});
+    for (const GeneratedFile *file : includes_->closureOf(unit.path))
+      hash.add(includes_->hashOf(*file));
     return hash.hex();
   }
 
-  std::vector<Unit> units() const {
+  std::vector<Unit> units() {
     std::vector<Unit> units;
     for (const TranslationUnit &unit : units_)
-      units.push_back({&unit, keyOf(*byPath_.at(unit.path), unit.runsOnce),
-                       work_->path() / fmt::format("{}.o", units.size())});
+      units.push_back({&unit, keyOf(unit), work_->path() / fmt::format("{}.o", units.size())});
     return units;
   }
 
@@ -259,7 +256,7 @@ private:
   bool writeSourcesOf(const std::vector<Unit> &units) {
     std::unordered_set<const GeneratedFile *> written;
     for (const Unit &unit : units)
-      for (const GeneratedFile *file : withIncluded(*byPath_.at(unit.source->path), byPath_))
+      for (const GeneratedFile *file : includes_->closureOf(unit.source->path))
         if (written.insert(file).second && !writeNewFile(sources_ / file->path, file->text))
           return cannotWrite(sources_ / file->path);
     return true;
@@ -460,7 +457,7 @@ private:
   ContentHash base_; ///< the tool chain's
   std::vector<GeneratedFile> files_;
   std::vector<TranslationUnit> units_;
-  FilesByPath byPath_;
+  std::optional<IncludeGraph> includes_;
 };
 
 } // namespace

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <fmt/format.h>
 #include <string_view>
-#include <unordered_set>
 #include <utility>
 
 namespace stc {
@@ -141,41 +140,10 @@ private:
   std::vector<TranslationUnit> units_;
 };
 
-/// Names in `#include "…"` of a generated text.
-std::vector<std::string> includesOf(std::string_view text) {
-  constexpr std::string_view kInclude = "#include \"";
-  std::vector<std::string> names;
-  for (size_t at = text.find(kInclude); at != std::string_view::npos;
-       at = text.find(kInclude, at)) {
-    at += kInclude.size();
-    const size_t end = text.find('"', at);
-    if (end == std::string_view::npos)
-      break;
-    names.emplace_back(text.substr(at, end - at));
-  }
-  return names;
-}
-
 } // namespace
 
 std::vector<TranslationUnit> divideIntoUnits(std::vector<GeneratedFile> &files) {
   return Divider(files).run();
-}
-
-std::vector<const GeneratedFile *> withIncluded(const GeneratedFile &file,
-                                                const FilesByPath &files) {
-  std::vector<const GeneratedFile *> all;
-  std::vector<const GeneratedFile *> pending = {&file};
-  std::unordered_set<const GeneratedFile *> seen = {&file};
-  while (!pending.empty()) {
-    all.push_back(pending.back());
-    pending.pop_back();
-    for (const std::string &name : includesOf(all.back()->text))
-      if (const auto found = files.find(name);
-          found != files.end() && seen.insert(found->second).second)
-        pending.push_back(found->second);
-  }
-  return all;
 }
 
 } // namespace stc

@@ -5,7 +5,6 @@
 #include "compiler/codegen/codegen.hpp"
 
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace stc {
@@ -27,12 +26,6 @@ struct TranslationUnit {
 /// order of the files. Sources that run once in a cycle are apart from others. What is large is a
 /// unit of its own, and so are app.cpp and build.cpp, which change when others do not.
 [[nodiscard]] std::vector<TranslationUnit> divideIntoUnits(std::vector<GeneratedFile> &files);
-
-using FilesByPath = std::unordered_map<std::string, const GeneratedFile *>;
-
-/// A source or header, and the generated ones that it includes by itself and by others, each once.
-[[nodiscard]] std::vector<const GeneratedFile *> withIncluded(const GeneratedFile &file,
-                                                              const FilesByPath &files);
 
 } // namespace stc
 

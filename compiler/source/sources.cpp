@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 
 namespace stc {
@@ -31,8 +32,30 @@ size_t sequenceLength(std::string_view text) {
   return length;
 }
 
+/// How many bytes at the start are ASCII, in steps of eight.
+size_t asciiPrefix(std::string_view text) {
+  constexpr uint64_t kHigh = 0x8080808080808080U;
+  size_t place = 0;
+  for (uint64_t eight = 0; place + sizeof(eight) <= text.size(); place += sizeof(eight)) {
+    std::memcpy(&eight, text.data() + place, sizeof(eight));
+    if ((eight & kHigh) != 0)
+      break;
+  }
+  return place;
+}
+
+bool isAscii(std::string_view text) {
+  text.remove_prefix(asciiPrefix(text));
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
 bool isUtf8(std::string_view text) {
   while (!text.empty()) {
+    if (const size_t plain = asciiPrefix(text); plain != 0) {
+      text.remove_prefix(plain);
+      continue;
+    }
     const size_t length = sequenceLength(text);
     if (length == 0)
       return false;
@@ -69,10 +92,7 @@ SourceFile::SourceFile(FileId id, std::string name, std::string text)
       break;
     lineStarts_.push_back(static_cast<uint32_t>(++at - begin));
   }
-  unsigned char all = 0;
-  for (const char c : text_)
-    all |= static_cast<unsigned char>(c);
-  ascii_ = all < 0x80;
+  ascii_ = isAscii(text_);
 }
 
 uint32_t SourceFile::lineNumber(uint32_t offset) const {

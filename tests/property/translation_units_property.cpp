@@ -130,26 +130,6 @@ TEST(TranslationUnits, WhatRunsOnceIsInLargerUnits) {
   }
 }
 
-TEST(TranslationUnits, FindsWhatASourceIncludesOnce) {
-  const std::vector<GeneratedFile> files = {
-      {"user/A.cpp", "#include \"st/A.h\"\n#include \"runtime/iec/ops.h\"\n#include \"st/B.h\"\n"},
-      {"st/A.h", "#include \"st/C.h\"\n"},
-      {"st/B.h", "#include \"st/C.h\"\n#include \"st/B.h\"\n"},
-      {"st/C.h", "#include <st/D.h>\n"},
-      {"st/D.h", "struct D;\n"}};
-  stc::FilesByPath byPath;
-  for (const GeneratedFile &file : files)
-    byPath.emplace(file.path, &file);
-  const auto pathsFrom = [&](size_t file) {
-    std::multiset<std::string> paths;
-    for (const GeneratedFile *found : stc::withIncluded(files[file], byPath))
-      paths.insert(found->path);
-    return paths;
-  };
-  EXPECT_EQ(pathsFrom(0), (std::multiset<std::string>{"st/A.h", "st/B.h", "st/C.h", "user/A.cpp"}));
-  EXPECT_EQ(pathsFrom(4), std::multiset<std::string>{"st/D.h"});
-}
-
 TEST(TranslationUnits, ShutsOutTheInlineBodiesOfItsOwn) {
   std::vector<GeneratedFile> files = {source("Ant", 5), source("Bee", 5), {"app.cpp", "t"}};
   ASSERT_EQ(divideIntoUnits(files).size(), 1U);

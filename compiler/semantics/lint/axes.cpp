@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 
 namespace stc::lint {
@@ -189,14 +190,23 @@ private:
   std::map<const VarSymbol *, AxisUse> uses_;
 };
 
-void reportAxis(Context &c, const VarSymbol *variable, const AxisUses &uses) {
+/// The initial value that makes a drive of it; null: none.
+const Expr *realDrive(const VarSymbol *variable) {
+  return given(variable->decl->init, "brealdrive");
+}
+
+/// A program's own axis, which somebody has to serve.
+bool isOwnAxis(const VarSymbol *variable) {
   if (variable->decl == nullptr || !isAxis(variable->type) || variable->section == Section::InOut ||
       variable->section == Section::External)
-    return;
+    return false;
+  const Expr *real = realDrive(variable); // is one of the PLC configuration, unless it is 0
+  return real == nullptr || real->constant == nullptr || real->constant->integer == 0;
+}
+
+void reportAxis(Context &c, const VarSymbol *variable, const AxisUses &uses) {
   const Expr *init = variable->decl->init;
-  const Expr *real = given(init, "brealdrive");
-  if (real != nullptr && real->constant != nullptr && real->constant->integer != 0)
-    return; // a drive of the PLC configuration
+  const Expr *real = realDrive(variable);
   AxisUse use = uses.sum(variable);
   use.timed = use.timed || given(init, "ftaskcycle") != nullptr;
   // One of stride.toml is there to be served, others perhaps to be looked at.
@@ -220,17 +230,22 @@ void reportAxis(Context &c, const VarSymbol *variable, const AxisUses &uses) {
 } // namespace
 
 void reportAxes(Context &c, const Library &library) {
-  const AxisUses uses(c, library);
+  std::vector<const VarSymbol *> axes;
+  const auto add = [&](const auto &variables) {
+    std::copy_if(variables.begin(), variables.end(), std::back_inserter(axes), isOwnAxis);
+  };
   for (const GlobalsSymbol *globals : library.globals)
-    for (const VarSymbol *variable : globals->variables)
-      reportAxis(c, variable, uses);
+    add(globals->variables);
   for (const PouSymbol *pou : library.pous) {
-    for (const VarSymbol *variable : pou->variables)
-      reportAxis(c, variable, uses);
+    add(pou->variables);
     for (const PouSymbol *method : pou->methods)
-      for (const VarSymbol *variable : method->variables)
-        reportAxis(c, variable, uses);
+      add(method->variables);
   }
+  if (axes.empty())
+    return; // without looking at every statement
+  const AxisUses uses(c, library);
+  for (const VarSymbol *axis : axes)
+    reportAxis(c, axis, uses);
 }
 
 } // namespace stc::lint

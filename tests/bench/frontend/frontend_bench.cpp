@@ -1,7 +1,8 @@
 // From text to syntax tree, and from text to C++, on the generated project of 100,000 lines in one
-// file.
+// file; as many files with one thread and with two.
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/library_index.hpp"
+#include "compiler/project/project.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/syntax/parser.hpp"
 
@@ -16,17 +17,21 @@
 
 namespace {
 
+namespace fs = std::filesystem;
+
+/// The folder that the project is in; empty when Python is missing.
+fs::path generated(const std::string &name, const std::string &option) {
+  fs::path folder = fs::path(STRIDE_BINARY_DIR) / "bench" / name;
+  const std::string command = "python3 '" STRIDE_SOURCE_DIR
+                              "/tests/bench/frontend/generate_project.py' 100000 '" +
+                              folder.string() + "' " + option;
+  return std::system(command.c_str()) == 0 ? folder : fs::path();
+}
+
 /// Empty when Python is missing.
 const std::string &projectText() {
   static const std::string text = [] {
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::path(STRIDE_BINARY_DIR) / "bench" / "generated";
-    const std::string command = "python3 '" STRIDE_SOURCE_DIR
-                                "/tests/bench/frontend/generate_project.py' 100000 '" +
-                                folder.string() + "' --one-file";
-    if (std::system(command.c_str()) != 0)
-      return std::string{};
-    std::ifstream in(folder / "Main.st", std::ios::binary);
+    std::ifstream in(generated("generated", "--one-file") / "Main.st", std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(in), {});
   }();
   return text;
@@ -109,5 +114,31 @@ void compileProject(benchmark::State &state) {
   state.counters["peak_bytes_per_line"] = peakMemory() / lines;
 }
 BENCHMARK(compileProject)->Unit(benchmark::kMillisecond);
+
+/// What `stride check` does with 755 files; the argument is the number of threads.
+void checkFolder(benchmark::State &state) {
+  static const fs::path folder = generated("generated_files", "");
+  if (folder.empty()) {
+    state.SkipWithError("the project cannot be generated");
+    return;
+  }
+  const stc::EmbeddedLibraryIndex library(stc::standardLibrary());
+  stc::Settings settings;
+  settings.jobs = static_cast<unsigned>(state.range(0));
+  for (auto _ : state) {
+    const stc::Project project(folder, stc::Purpose::Check, settings, library);
+    if (project.hasErrors()) {
+      state.SkipWithError("the project has errors");
+      return;
+    }
+  }
+}
+BENCHMARK(checkFolder)
+    ->Arg(1)
+    ->Arg(2)
+    ->ArgName("threads")
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
 
 } // namespace
