@@ -218,9 +218,11 @@ void forget(GroupState &state) noexcept {
 }
 
 /// Whether a request can come after the movements that the group has without rest and a new tool.
+/// Those that cannot be in a moving system wait for rest: before that it is not known where the
+/// axes are at the end of a path that is in such a system, or comes out of one.
 bool canFollow(const GroupState &state, const Request &request) noexcept {
   return group::hasRoom(state.motion) && isSame(state.tool, request.tool) &&
-         !(givesToolAxes(request) && group::isCarried(state.motion));
+         (canRide(request) || !group::isCarried(state.motion));
 }
 
 /// The group goes on with another tool, whose point is elsewhere.
