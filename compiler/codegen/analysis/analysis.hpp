@@ -76,12 +76,18 @@ public:
   /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing
   /// else can change it; `countsAlone` says that this is known.
   void enterLoop(const ast::ForStmt *loop, bool countsAlone = false);
-  /// The variable that the last statement of the body counts up or down; null: there is none.
+  /// The variable that the end of the body counts up or down, and that the condition limits; null:
+  /// there is none.
   [[nodiscard]] static const VarSymbol *steppedVariable(const ast::WhileStmt *loop);
-  /// Within the body of a WHILE loop it has a known range up to that statement, if the statement
-  /// `before` the loop (or null) gives it a value of a known one. Nothing but the loop's own
-  /// statements changes the variable while it runs.
-  void enterWhile(const ast::WhileStmt *loop, const ast::Stmt *before);
+  /// Within the body of a WHILE loop it has a known range up to there, if the statements `before`
+  /// the loop in its block give it a value of a known one. Nothing but the loop's own statements
+  /// changes the variable while it runs.
+  void enterWhile(const ast::WhileStmt *loop, ast::Block before);
+  /// So often such a loop runs at most, whose body only computes; huge for others.
+  [[nodiscard]] int64_t whileRounds(const ast::WhileStmt *loop, ast::Block before);
+  /// So often a FOR loop with a constant step runs at most whose bounds have known ranges (of 31
+  /// bits); huge for others.
+  [[nodiscard]] int64_t roundsAtMost(const ast::ForStmt *loop) const;
   /// A WHILE loop of which nothing is known.
   void enterUnknown() { ranges_.push_back({nullptr, 0, 0}); }
   void leaveLoop();
@@ -114,7 +120,11 @@ private:
     int64_t low;
     int64_t high;
   };
-  [[nodiscard]] Range whileRange(const ast::WhileStmt *loop, const ast::Stmt *before) const;
+  struct WhileFacts {
+    Range range{nullptr, 0, 0};
+    int64_t rounds = kHuge;
+  };
+  [[nodiscard]] WhileFacts whileFacts(const ast::WhileStmt *loop, ast::Block before);
   /// The values that the expression can have here, or nothing.
   [[nodiscard]] std::optional<Interval> interval(const ast::Expr *e, unsigned depth = 0) const;
   [[nodiscard]] std::optional<Interval> intervalOf(const ast::BinaryExpr *e, unsigned depth) const;

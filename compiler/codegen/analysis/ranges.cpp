@@ -86,27 +86,70 @@ std::optional<int64_t> limitOf(const Expr *condition, const VarSymbol *variable,
   return isStrict ? (up ? limit - 1 : limit + 1) : limit;
 }
 
-/// The last statement of the body, `v := v + x` or `v := v - x`.
+/// `v := v + x`, `v - x`, `v * x`, `v / x`, of the variable that the condition limits.
 struct Step {
   const VarSymbol *variable = nullptr;
   const Expr *by = nullptr;
-  bool up = true;
+  BinaryOp op = BinaryOp::Add;
+  int64_t limit = 0;
+
+  [[nodiscard]] bool up() const { return op == BinaryOp::Add || op == BinaryOp::Multiply; }
 };
 
+Step stepIn(const AssignStmt *a, const Expr *condition) {
+  if (a->value->kind != ExprKind::Binary || a->value->constant != nullptr)
+    return {};
+  const auto *sum = as<BinaryExpr>(a->value);
+  Step step{namedVariable(a->targets.front()), sum->right, sum->op};
+  if (!step.up() && sum->op != BinaryOp::Subtract && sum->op != BinaryOp::Divide)
+    return {};
+  if (namedVariable(sum->left) != step.variable) {
+    if (!step.up() || namedVariable(sum->right) != step.variable)
+      return {};
+    step.by = sum->left;
+  }
+  const auto limit = limitOf(condition, step.variable, step.up());
+  if (!limit || *limit < -kLimit || *limit > kLimit)
+    return {};
+  step.limit = *limit;
+  return step;
+}
+
+bool mentions(Block block, const VarSymbol *variable) {
+  bool found = false;
+  walkExpressions(block, [&](const Expr *e) { found = found || symbolAt(e) == variable; });
+  return found;
+}
+
+/// At the end of the body; what comes after it has nothing to do with the variable.
 Step stepOf(const WhileStmt *loop) {
-  const auto *last = loop->body.empty() ? nullptr : plainAssignment(loop->body.back());
-  if (last == nullptr || last->value->kind != ExprKind::Binary || last->value->constant != nullptr)
-    return {};
-  const auto *sum = as<BinaryExpr>(last->value);
-  if (sum->op != BinaryOp::Add && sum->op != BinaryOp::Subtract)
-    return {};
-  const VarSymbol *v = namedVariable(last->targets.front());
-  if (namedVariable(sum->left) == v)
-    return {v, sum->right, sum->op == BinaryOp::Add};
-  if (sum->op == BinaryOp::Add && namedVariable(sum->right) == v)
-    return {v, sum->left, true};
+  for (size_t i = loop->body.size(); i-- > 0;) {
+    const AssignStmt *a = plainAssignment(loop->body[i]);
+    if (a == nullptr)
+      break;
+    if (const Step step = stepIn(a, loop->condition); step.variable != nullptr)
+      return mentions(loop->body.subspan(i + 1), step.variable) ? Step{} : step;
+  }
   return {};
 }
+
+/// The last statement that gives the variable its value, among those directly before a loop.
+const AssignStmt *valueBefore(Analysis &analysis, Block before, const VarSymbol *variable) {
+  constexpr size_t kMost = 8;
+  for (size_t i = before.size(), n = 0; i-- > 0 && n < kMost; ++n) {
+    const AssignStmt *a = plainAssignment(before[i]);
+    if (a == nullptr || namedVariable(a->targets.front()) == variable)
+      return a;
+    if (namedVariable(a->targets.front())->type->kind == TypeKind::Reference ||
+        namedVariable(a->targets.front())->section == Section::InOut ||
+        (analysis.effects(a->value) & kEffectCalls) != 0)
+      return nullptr;
+  }
+  return nullptr;
+}
+
+/// From 1 to any number of 31 bits by factors of 2.
+constexpr int64_t kDoublings = 32;
 
 } // namespace
 
@@ -133,32 +176,53 @@ void Analysis::leaveLoop() { ranges_.pop_back(); }
 
 const VarSymbol *Analysis::steppedVariable(const WhileStmt *loop) { return stepOf(loop).variable; }
 
-void Analysis::enterWhile(const WhileStmt *loop, const Stmt *before) {
-  ranges_.push_back(whileRange(loop, before));
+int64_t Analysis::whileRounds(const WhileStmt *loop, Block before) {
+  // Nobody knows how long a call takes.
+  if (!computes(loop->body, [](const Expr *) { return true; }))
+    return kHuge;
+  return whileFacts(loop, before).rounds;
 }
 
-/// It begins with a known value, each round adds something that is not negative, and it does not
-/// wrap: from any value that the condition allows, the next one is one of its type, too.
-Analysis::Range Analysis::whileRange(const WhileStmt *loop, const Stmt *before) const {
-  constexpr Range kNothing{nullptr, 0, 0};
+void Analysis::enterWhile(const WhileStmt *loop, Block before) {
+  ranges_.push_back(whileFacts(loop, before).range);
+}
+
+/// It begins with a known value, each round goes on from there or stays, and it does not wrap: from
+/// any value that the condition allows, the next one is one of its type, too.
+Analysis::WhileFacts Analysis::whileFacts(const WhileStmt *loop, Block before) {
   const Step step = stepOf(loop);
-  const auto *first = plainAssignment(before);
-  if (step.variable == nullptr || first == nullptr ||
-      namedVariable(first->targets.front()) != step.variable ||
-      writes(loop->body, step.variable) != 1)
-    return kNothing;
+  const auto *first =
+      step.variable == nullptr ? nullptr : valueBefore(*this, before, step.variable);
+  if (first == nullptr || writes(loop->body, step.variable) != 1)
+    return {};
+  const bool up = step.up();
   const auto from = interval(first->value);
   const auto by = interval(step.by);
-  const auto limit = limitOf(loop->condition, step.variable, step.up);
-  if (!from || !by || !limit || by->low < 0 || *limit < -kLimit || *limit > kLimit)
-    return kNothing;
-  const Range range =
-      step.up ? Range{step.variable, from->low, *limit} : Range{step.variable, *limit, from->high};
+  if (!from || !by)
+    return {};
+  const Range range = up ? Range{step.variable, from->low, step.limit}
+                         : Range{step.variable, step.limit, from->high};
   const Type *type = step.variable->type;
-  const bool fitsAfter = step.up ? fits(type, range.low, range.high + by->high)
-                                 : fits(type, range.low - by->high, range.high);
-  return fits(type, from->low, from->high) && range.low <= range.high && fitsAfter ? range
-                                                                                   : kNothing;
+  if (range.low > range.high || !fits(type, from->low, from->high) ||
+      !fits(type, range.low, range.high))
+    return {};
+  if (step.op == BinaryOp::Multiply || step.op == BinaryOp::Divide) {
+    const bool grows =
+        by->low >= 2 && range.low >= 1 && (!up || fits(type, range.low, range.high * by->high));
+    return grows ? WhileFacts{range, kDoublings} : WhileFacts{};
+  }
+  if (by->low < 0 || !(up ? fits(type, range.low, range.high + by->high)
+                          : fits(type, range.low - by->high, range.high)))
+    return {};
+  return {range, by->low == 0 ? kHuge : (range.high - range.low) / by->low + 1};
+}
+
+int64_t Analysis::roundsAtMost(const ForStmt *loop) const {
+  const auto from = interval(loop->from);
+  const auto to = from ? interval(loop->to) : std::nullopt;
+  if (!to || (loop->by != nullptr && loop->by->constant == nullptr))
+    return kHuge;
+  return std::max(to->high - from->low, from->high - to->low) + 1;
 }
 
 std::optional<Analysis::Interval> Analysis::interval(const Expr *e, unsigned depth) const {

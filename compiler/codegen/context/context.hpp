@@ -94,6 +94,9 @@ struct Loop {
 struct Loops {
   std::vector<Loop> around;
   std::vector<const VarSymbol *> locals;
+  /// So many rounds do the loops around make at most that take nothing from the loop budget, up to
+  /// the first that does.
+  int64_t uncounted = 1;
   std::string context{kContext}; ///< what stands for the context: a loop's own where it has locals
   /// The same for calls that always end: a loop's copy where these read the clock in it.
   std::string plain{kContext};
@@ -119,7 +122,7 @@ struct Modes {
   Initialised init;
   Loops loops;
   std::vector<Try> tries;
-  const ast::Stmt *before = nullptr; ///< the statement before this one in its block
+  ast::Block before; ///< the statements before this one in its block
 };
 
 /// The C++ of one file: what is written into, what it needs around it, and where in the ST it is.

@@ -61,22 +61,47 @@ bool isReachedOnlyHere(EmitContext &cx, const VarSymbol *v) {
          !cx.run.analysis.isShared(v) && !cx.run.addressed.onDataStack(v);
 }
 
+/// While the body of a WHILE loop is written the range of a variable may be known.
+class WhileRange {
+public:
+  WhileRange(EmitContext &cx, const WhileStmt *s, bool isKnown, int64_t uncounted)
+      : analysis_(cx.run.analysis), uncounted_(cx.modes.loops.uncounted, uncounted) {
+    if (isKnown)
+      analysis_.enterWhile(s, cx.modes.before);
+    else
+      analysis_.enterUnknown();
+  }
+  ~WhileRange() { analysis_.leaveLoop(); }
+  WhileRange(const WhileRange &) = delete;
+  WhileRange &operator=(const WhileRange &) = delete;
+
+private:
+  Analysis &analysis_;
+  Scoped<int64_t> uncounted_;
+};
+
 void emitWhile(EmitContext &cx, const WhileStmt *s) {
-  const std::string run = cx.temporary("run");
-  cx.begin(s->span);
-  openRefillLoop(cx, run, "true", s->span);
-  cx.out << "while (--budget__.left >= 0 && (" << run << " = ";
-  emitValue(cx, s->condition);
-  cx.out << ")) {";
-  cx.end();
   Analysis &analysis = cx.run.analysis;
   const VarSymbol *v = Analysis::steppedVariable(s);
-  if (v != nullptr && isReachedOnlyHere(cx, v))
-    analysis.enterWhile(s, cx.modes.before);
-  else
-    analysis.enterUnknown();
-  emitLoopBody(cx, s->body, true);
-  analysis.leaveLoop();
+  const bool isKnown = v != nullptr && isReachedOnlyHere(cx, v);
+  const int64_t most = Analysis::kShortLoop / cx.modes.loops.uncounted;
+  const int64_t rounds = isKnown ? analysis.whileRounds(s, cx.modes.before) : most + 1;
+  const bool isShort = rounds <= most;
+  cx.begin(s->span);
+  if (isShort) {
+    cx.out << "while (";
+    emitValue(cx, s->condition);
+    cx.out << ") {";
+  } else {
+    const std::string run = cx.temporary("run");
+    openRefillLoop(cx, run, "true", s->span);
+    cx.out << "while (--budget__.left >= 0 && (" << run << " = ";
+    emitValue(cx, s->condition);
+    cx.out << ")) {";
+  }
+  cx.end();
+  const WhileRange range(cx, s, isKnown, isShort ? cx.modes.loops.uncounted * rounds : 1);
+  emitLoopBody(cx, s->body, !isShort);
 }
 
 void emitRepeat(EmitContext &cx, const RepeatStmt *s) {
@@ -87,6 +112,7 @@ void emitRepeat(EmitContext &cx, const RepeatStmt *s) {
   emitValue(cx, s->until);
   cx.out << ")) {";
   cx.end();
+  const Scoped<int64_t> counted(cx.modes.loops.uncounted, 1);
   emitLoopBody(cx, s->body, true);
 }
 
@@ -108,7 +134,8 @@ struct Counter {
 /// While the body is written the range of the variable may be known.
 class KnownRange {
 public:
-  KnownRange(EmitContext &cx, const Counter &counter) : analysis_(cx.run.analysis) {
+  KnownRange(EmitContext &cx, const Counter &counter)
+      : analysis_(cx.run.analysis), counted_(cx.modes.loops.uncounted, 1) {
     analysis_.enterLoop(counter.stmt, counter.countsAlone);
   }
   ~KnownRange() { analysis_.leaveLoop(); }
@@ -117,6 +144,7 @@ public:
 
 private:
   Analysis &analysis_;
+  Scoped<int64_t> counted_;
 };
 
 /// The variable is found once, before the bounds are computed; and followed once where that takes a
@@ -138,7 +166,8 @@ Counter counterOf(EmitContext &cx, const ForStmt *s) {
   counter.variable = findCounter(cx, s->variable, counter.number);
   counter.hasStep = s->by == nullptr || s->by->constant != nullptr;
   counter.step = s->by == nullptr ? 1 : counter.hasStep ? s->by->constant->integer : 0;
-  counter.isShort = cx.run.analysis.shortLoop(s);
+  // Within a loop that is not counted it would be another one.
+  counter.isShort = cx.modes.loops.uncounted == 1 && cx.run.analysis.shortLoop(s);
   counter.countsAlone = !counter.isShort && cx.run.loopLocals.countsAlone(s, cx.pou);
   return counter;
 }
@@ -328,10 +357,14 @@ void emitFewBits(EmitContext &cx, const Counter &counter) {
   emitLoopBody(cx, s->body, false);
 }
 
-/// A step that no sum with a variable of few bits makes too large for a DINT.
-bool isSmallStep(const Counter &counter) {
+/// Neither the rounds are too many nor a sum of the variable and the step for a DINT.
+bool endsSoon(const EmitContext &cx, const Counter &counter) {
   constexpr int64_t kMost = 1 << 16;
-  return counter.hasStep && counter.step != 0 && counter.step >= -kMost && counter.step <= kMost;
+  if (!counter.hasStep || counter.step == 0 || counter.step < -kMost || counter.step > kMost)
+    return false;
+  const unsigned bits = bitWidth(counter.type);
+  return bits < 32 ||
+         (bits == 32 && cx.run.analysis.roundsAtMost(counter.stmt) <= Analysis::kShortLoop);
 }
 
 void emitFor(EmitContext &cx, const ForStmt *s) {
@@ -345,7 +378,7 @@ void emitFor(EmitContext &cx, const ForStmt *s) {
     takeRounds(cx, s);
   if (counted)
     emitCounted(cx, counter);
-  else if (isWhole && bitWidth(counter.type) < 32 && isSmallStep(counter))
+  else if (isWhole && endsSoon(cx, counter))
     emitFewBits(cx, counter);
   else
     emitGeneral(cx, counter);

@@ -90,7 +90,7 @@ void emitBlock(EmitContext &cx, Block block) {
   const bool labelled = std::any_of(block.begin(), block.end(), [](const Stmt *s) {
     return s->kind == StmtKind::Label && as<LabelStmt>(s)->used;
   });
-  const Scoped<const Stmt *> outer(cx.modes.before, nullptr);
+  const Scoped<Block> outer(cx.modes.before, {});
   for (const Stmt *s : block) {
     const bool alone = labelled && s->kind != StmtKind::Label && s->kind != StmtKind::Empty;
     if (alone) {
@@ -102,8 +102,7 @@ void emitBlock(EmitContext &cx, Block block) {
       cx.close();
       cx.line("}");
     }
-    if (s->kind != StmtKind::Empty)
-      cx.modes.before = s;
+    cx.modes.before = block.first(cx.modes.before.size() + 1);
   }
 }
 
