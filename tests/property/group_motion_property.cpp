@@ -31,4 +31,12 @@ TEST(GroupMotion, KeepsLimitsAndArrives) {
   EXPECT_LE(failed, cases / 5);
 }
 
+// An axis that goes along has the peak of its acceleration between two places that are looked at.
+TEST(GroupMotion, SeesPeaksBetweenSamples) {
+  GroupDrive drive(1935, 1, true);
+  drive.run(6);
+  EXPECT_FALSE(drive.hasFailed());
+  EXPECT_GE(drive.cornersLooked(), 100);
+}
+
 } // namespace
