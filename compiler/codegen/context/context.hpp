@@ -5,6 +5,7 @@
 
 #include "compiler/codegen/analysis/addressed.hpp"
 #include "compiler/codegen/analysis/analysis.hpp"
+#include "compiler/codegen/analysis/inner_sums.hpp"
 #include "compiler/codegen/analysis/loop_locals.hpp"
 #include "compiler/codegen/analysis/plain_calls.hpp"
 #include "compiler/codegen/analysis/repetition.hpp"

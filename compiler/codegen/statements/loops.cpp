@@ -1,6 +1,5 @@
 #include "compiler/codegen/statements/loops.hpp"
 
-#include "compiler/codegen/analysis/inner_sums.hpp"
 #include "compiler/codegen/expressions/expressions.hpp"
 #include "compiler/codegen/places/places.hpp"
 #include "compiler/codegen/statements/assignments.hpp"
