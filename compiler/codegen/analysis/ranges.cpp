@@ -4,6 +4,8 @@
 #include "compiler/semantics/fold.hpp"
 #include "compiler/syntax/visit.hpp"
 
+#include <algorithm>
+
 namespace stc::codegen {
 
 using namespace ast;
@@ -148,6 +150,17 @@ const AssignStmt *valueBefore(Analysis &analysis, Block before, const VarSymbol 
   return nullptr;
 }
 
+/// A CONTINUE of the loop itself can keep a round from its last statements.
+bool canContinue(Block body) {
+  return std::any_of(body.begin(), body.end(), [](const Stmt *s) {
+    bool found = s->kind == StmtKind::Continue;
+    if (s->kind != StmtKind::For && s->kind != StmtKind::While && s->kind != StmtKind::RepeatS)
+      forEachChild(
+          s, [](const Expr *) {}, [&](Block inner) { found = found || canContinue(inner); });
+    return found;
+  });
+}
+
 /// From 1 to any number of 31 bits by factors of 2.
 constexpr int64_t kDoublings = 32;
 
@@ -177,8 +190,8 @@ void Analysis::leaveLoop() { ranges_.pop_back(); }
 const VarSymbol *Analysis::steppedVariable(const WhileStmt *loop) { return stepOf(loop).variable; }
 
 int64_t Analysis::whileRounds(const WhileStmt *loop, Block before) {
-  // Nobody knows how long a call takes.
-  if (!computes(loop->body, [](const Expr *) { return true; }))
+  // Nobody knows how long a call takes, nor how many rounds leave the variable as it is.
+  if (canContinue(loop->body) || !computes(loop->body, [](const Expr *) { return true; }))
     return kHuge;
   return whileFacts(loop, before).rounds;
 }

@@ -68,6 +68,10 @@ constexpr Loop kLoops[] = {
      "FOR k := 0 TO 1 DO i := 0; WHILE i < 40 AND counted < 50 DO counted := counted + 1; "
      "i := i + k; END_WHILE END_FOR",
      50, 54, 54},
+    {"WhileThatMayStay",
+     "i := 0; WHILE i < 40 DO counted := counted + 1; IF counted < 10 THEN CONTINUE; END_IF "
+     "i := i + 1; END_WHILE",
+     49, 50, 50},
     {"WhileDoubling", "i := 1; WHILE i <= 100 DO counted := counted + 1; i := i * 2; END_WHILE", 7,
      0, 0},
     {"WhileHalving", "i := 100; WHILE i >= 1 DO counted := counted + 1; i := i / 2; END_WHILE", 7,
