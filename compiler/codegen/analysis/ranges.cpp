@@ -206,7 +206,12 @@ Analysis::WhileFacts Analysis::whileFacts(const WhileStmt *loop, Block before) {
   const Step step = stepOf(loop);
   const auto *first =
       step.variable == nullptr ? nullptr : valueBefore(*this, before, step.variable);
-  if (first == nullptr || writes(loop->body, step.variable) != 1)
+  // What the condition calls may change it, too; a check of the project's own may give another
+  // value.
+  if (first == nullptr || writes(loop->body, step.variable) != 1 ||
+      (effects(loop->condition) & kEffectCalls) != 0 ||
+      step.variable->type->kind == TypeKind::Subrange ||
+      (step.op == BinaryOp::Divide && step.by->constant == nullptr))
     return {};
   const bool up = step.up();
   const auto from = interval(first->value);
