@@ -109,6 +109,18 @@ bool writeAll(int fd, std::string_view text) {
   return true;
 }
 
+/// The same, and closes it; false also where only that fails (errno).
+bool writeAndClose(int fd, std::string_view text) {
+  bool good = writeAll(fd, text);
+  int saved = errno;
+  if (::close(fd) != 0 && good) {
+    saved = errno;
+    good = false;
+  }
+  errno = saved;
+  return good;
+}
+
 } // namespace
 
 bool writeAt(int folder, const std::string &name, std::string_view text, unsigned mode) {
@@ -116,12 +128,8 @@ bool writeAt(int folder, const std::string &name, std::string_view text, unsigne
   const int fd = createUnique(folder, beside, mode);
   if (fd < 0)
     return false;
-  bool good = writeAll(fd, text);
+  bool good = writeAndClose(fd, text);
   int saved = errno;
-  if (::close(fd) != 0 && good) {
-    saved = errno;
-    good = false;
-  }
   if (good && ::renameat(folder, beside.c_str(), folder, name.c_str()) != 0) {
     saved = errno;
     good = false;
@@ -156,16 +164,7 @@ bool writeNewFile(const fs::path &path, std::string_view text) {
     fs::create_directories(path.parent_path(), error);
     file = ::open(path.c_str(), kFlags, 0666);
   }
-  if (file < 0)
-    return false;
-  bool good = writeAll(file, text);
-  int saved = errno;
-  if (::close(file) != 0 && good) {
-    saved = errno;
-    good = false;
-  }
-  errno = saved;
-  return good;
+  return file >= 0 && writeAndClose(file, text);
 }
 
 bool replaceFile(const fs::path &path, std::string_view text) {
