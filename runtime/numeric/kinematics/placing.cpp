@@ -58,35 +58,6 @@ Vector<Scalar> heldPoint(const AnyKinematics &kinematics, const Scalar *joints) 
   }
 }
 
-/// As bendArm, with a second link whose length may change: to (x, y) at a distance from the origin.
-template <class Scalar>
-Outcome bendTo(double first, const Scalar &second, const Scalar &x, const Scalar &y, bool positive,
-               double reference, Scalar (&angle)[2]) {
-  if (!(first > 0 && valueOf(second) > 0 && exact::isfinite(first + valueOf(second))))
-    return Outcome::WrongMeasures;
-  const Scalar distance = rootOf(x * x + y * y);
-  const Scalar sum = Scalar(first) + second;
-  const Scalar difference =
-      first >= valueOf(second) ? Scalar(first) - second : second - Scalar(first);
-  const Scalar longer = sum - distance;
-  const Scalar shorter = distance - difference;
-  if (isNegative(longer) || isNegative(shorter))
-    return Outcome::Unreachable;
-  const Scalar height = rootOf(longer * (sum + distance) * shorter * (distance + difference));
-  const Scalar s = positive ? height : -height;
-  const Scalar c = x * x + y * y - Scalar(first * first) - second * second;
-  angle[1] = angleOf(s, c);
-  if (isOrigin(x, y, valueOf(sum))) {
-    angle[0] = Scalar(reference);
-    return Outcome::Done;
-  }
-  const TurnOf<Scalar> bend = turnTowards(s, c, angle[1]);
-  const Scalar along = Scalar(first) + second * bend.c;
-  const Scalar aside = second * bend.s;
-  angle[0] = angleOf(y * along - x * aside, x * along + y * aside);
-  return Outcome::Done;
-}
-
 /// An upper arm and a forearm that bend in an upright plane, measured as an ArmRrr is, but that the
 /// tool axes change what the forearm ends in; and how their joints are counted.
 template <class Scalar> struct Bending {
@@ -127,8 +98,8 @@ template <class Scalar> struct Bending {
                  : nearTo(reference[0], angleOf(y * way + x * d3, x * way - y * d3));
     Scalar angle[2];
     const Outcome outcome =
-        bendTo(a2, forearm, way - a1, point(2) - d1, posture.elbow != posture.backwards,
-               reference[1] + kQuarter, angle);
+        bendArm(a2, forearm, way - a1, point(2) - d1, posture.elbow != posture.backwards,
+                reference[1] + kQuarter, angle);
     if (outcome != Outcome::Done)
       return outcome;
     own[1] = nearTo(reference[1], angle[0] - Scalar(kQuarter));
@@ -210,8 +181,8 @@ Outcome placeScara(const AnyKinematics &kinematics, const Vector<Scalar> &held,
                    Scalar *joints) {
   const Reaching<Scalar> reaching = reachingOf(kinematics, held);
   Scalar angle[2];
-  const Outcome outcome = bendTo(reaching.firstArm, reaching.secondArm, point(0), point(1),
-                                 posture.elbow, near[0], angle);
+  const Outcome outcome = bendArm(reaching.firstArm, reaching.secondArm, point(0), point(1),
+                                  posture.elbow, near[0], angle);
   if (outcome != Outcome::Done)
     return outcome;
   joints[0] = nearTo(near[0], angle[0]);

@@ -9,25 +9,28 @@ namespace stride::kinematics {
 
 /// The two angles of an arm of two links in a plane: of the first link against x, of the second one
 /// against the first. The elbow's angle is positive where `positive`. Where the plane's origin is
-/// reached, nothing decides the first angle: it keeps `reference`. [u], [rad]
-template <class Scalar>
-Outcome bendArm(double first, double second, const Scalar &x, const Scalar &y, bool positive,
+/// reached, nothing decides the first angle: it keeps `reference`. A second link whose length is a
+/// Scalar may change its length while the arm moves. [u], [rad]
+template <class Link, class Scalar>
+Outcome bendArm(double first, const Link &second, const Scalar &x, const Scalar &y, bool positive,
                 double reference, Scalar (&angle)[2]) {
-  if (!(first > 0 && second > 0 && exact::isfinite(first + second)))
+  const Link sum = Link(first) + second;
+  if (!(first > 0 && valueOf(second) > 0 && exact::isfinite(valueOf(sum))))
     return Outcome::WrongMeasures;
+  const Link difference = first >= valueOf(second) ? Link(first) - second : second - Link(first);
   // Twice the area of the triangle of base, elbow and tool by Heron's formula: exact near a
   // stretched arm, too.
   const Scalar distance = rootOf(x * x + y * y);
-  const Scalar longer = Scalar(first + second) - distance;
-  const Scalar shorter = distance - Scalar(exact::fabs(first - second));
+  const Scalar longer = Scalar(sum) - distance;
+  const Scalar shorter = distance - Scalar(difference);
   if (isNegative(longer) || isNegative(shorter))
     return Outcome::Unreachable;
-  const Scalar height = rootOf(longer * (Scalar(first + second) + distance) * shorter *
-                               (distance + Scalar(exact::fabs(first - second))));
+  const Scalar height =
+      rootOf(longer * (Scalar(sum) + distance) * shorter * (distance + Scalar(difference)));
   const Scalar s = positive ? height : -height;
-  const Scalar c = x * x + y * y - Scalar(first * first + second * second);
+  const Scalar c = x * x + y * y - Scalar(Link(first * first) + second * second);
   angle[1] = angleOf(s, c);
-  if (isOrigin(x, y, first + second)) {
+  if (isOrigin(x, y, valueOf(sum))) {
     angle[0] = Scalar(reference);
     return Outcome::Done;
   }
