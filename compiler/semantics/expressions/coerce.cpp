@@ -134,17 +134,22 @@ static void checkTextLength(Context &c, const Expr *expr, const Type *type) {
               std::to_string(wanted) + ")`");
 }
 
+/// An integer that is none of the type's values.
+static void reportOverflow(Context &c, const Expr *expr, const Type *type) {
+  const IntegerRange range = integerRange(type);
+  c.report(Code::ConstantOverflow, expr->span,
+           "the constant " + std::to_string(expr->constant->integer) + " does not fit into " +
+               typeName(type),
+           typeName(underlying(type)) + " holds " + std::to_string(range.low) + " to " +
+               (range.high == -1 ? "18446744073709551615" : std::to_string(range.high)));
+}
+
 /// A constant without type that is none of the type's values.
 static void reportUntyped(Context &c, Expr *expr, const Type *type, std::string_view what) {
   const Type *from = expr->type;
   if (from->kind == TypeKind::AnyInteger && isInteger(underlying(type)) &&
       type->kind != TypeKind::Enumeration) {
-    const IntegerRange range = integerRange(type);
-    c.report(Code::ConstantOverflow, expr->span,
-             "the constant " + std::to_string(expr->constant->integer) + " does not fit into " +
-                 typeName(type),
-             typeName(underlying(type)) + " holds " + std::to_string(range.low) + " to " +
-                 (range.high == -1 ? "18446744073709551615" : std::to_string(range.high)));
+    reportOverflow(c, expr, type);
     return;
   }
   const Type *own = from->kind == TypeKind::AnyReal ? elementaryType(TypeKind::Lreal)
@@ -243,6 +248,12 @@ void coerce(Context &c, Expr *expr, const Type *type, std::string_view what) {
   }
   if (isUntyped(from)) {
     reportUntyped(c, expr, type, what);
+    return;
+  }
+  // No check of a constant is made at run time.
+  if (expr->constant != nullptr && expr->constant->kind == ConstKind::Integer &&
+      type->kind == TypeKind::Subrange && isInteger(underlying(from))) {
+    reportOverflow(c, expr, type);
     return;
   }
   const Conversion conversion = conversionOf(expr, type);
