@@ -2,6 +2,7 @@
 
 #include "runtime/axis/axis_cycle.hpp"
 #include "runtime/axis/increments.hpp"
+#include "runtime/axis/parameter_channel.hpp"
 #include "runtime/axis/set_point.hpp"
 #include "runtime/axis/shift_position.hpp"
 #include "runtime/bus/capture.hpp"
@@ -76,10 +77,14 @@ void DriveGroup::executeStart() {
     stepReset();
   if (group_->wState < axis::kNormalOperation)
     startUp();
+  const bool begins = resetting();
   for (size_t i = 0; i < axes_.size(); ++i) {
-    serveRestart(i);
-    readDrive(i);
-    serveParameters(i);
+    axis::AxisRef &axis = *axes_[i];
+    if (begins || asksForRestart(axis))
+      serveRestart(i);
+    readDrive(i, axis);
+    if (axis::channelStep(axis.stChannel) != axis::ChannelStep::Idle)
+      serveParameters(i);
   }
   if (group_->wState == axis::kNormalOperation)
     readEncoders();
@@ -282,45 +287,8 @@ void followErrors(axis::AxisRef &axis, const DriveStatus &status) {
   }
 }
 
-} // namespace
-
-void DriveGroup::readDrive(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
-  if (!isServed(axis)) {
-    if (axis.bRealDrive != 0)
-      axis.bMovedInThisCycle = 0;
-    return;
-  }
-  const DriveStatus status = driver_->status(index);
-  const axis::Regulated before = axis::regulated(axis);
-  readState(axis, status);
-  readActual(axis, status);
-  readCaptures(axis, status);
-  followErrors(axis, status);
-  if (!axis::isPowered(axis))
-    axis::leaveUnpowered(axis);
-  else if (axis.nAxisState == axis::state::kPowerOff)
-    axis.nAxisState = axis::state::kStandstill;
-  axis::changeRegulated(axis, before);
-  readHoming(axis, status);
-  if (followsDrive(axis))
-    axis::followActual(axis);
-  axis::beginCycle(axis);
-}
-
-/// Whether the set position follows the actual one: where no position is regulated, and during a
-/// reference run of the drive.
-bool DriveGroup::followsDrive(const axis::AxisRef &axis) const {
-  return axis::regulated(axis) != axis::Regulated::Position || axis::isDriveHoming(axis);
-}
-
 /// The drive's reference run, started by MC_Home: the position at the reference becomes fReference.
-void DriveGroup::readHoming(axis::AxisRef &axis, const DriveStatus &status) {
-  if (!axis::isDriveHoming(axis)) {
-    axis.bStartReference = 0;
-    axis.byHoming = static_cast<uint8_t>(axis::DriveHoming::None);
-    return;
-  }
+void readHoming(axis::AxisRef &axis, const DriveStatus &status) {
   switch (status.homing) {
   case Homing::None:
     break;
@@ -339,6 +307,44 @@ void DriveGroup::readHoming(axis::AxisRef &axis, const DriveStatus &status) {
   axis::writeMotion(axis, axis.fActVelocity, 0.0);
 }
 
+/// The set position follows the actual one where no position is regulated, and during a reference
+/// run of the drive.
+void followDrive(axis::AxisRef &axis, const DriveStatus &status) {
+  if (axis::isDriveHoming(axis)) {
+    readHoming(axis, status);
+    axis::followActual(axis);
+    return;
+  }
+  axis.bStartReference = 0;
+  axis.byHoming = static_cast<uint8_t>(axis::DriveHoming::None);
+  if (axis::regulated(axis) != axis::Regulated::Position)
+    axis::followActual(axis);
+}
+
+} // namespace
+
+void DriveGroup::readDrive(size_t index, axis::AxisRef &axis) {
+  if (!isServed(axis)) {
+    if (axis.bRealDrive != 0)
+      axis.bMovedInThisCycle = 0;
+    return;
+  }
+  const DriveStatus status = driver_->status(index);
+  const uint8_t before = axis.byRealControllerMode;
+  readState(axis, status);
+  readActual(axis, status);
+  readCaptures(axis, status);
+  followErrors(axis, status);
+  if (!axis::isPowered(axis))
+    axis::leaveUnpowered(axis);
+  else if (axis.nAxisState == axis::state::kPowerOff)
+    axis.nAxisState = axis::state::kStandstill;
+  if (axis.byRealControllerMode != before)
+    axis::changeRegulated(axis, axis::regulatedIn(axis, before));
+  followDrive(axis, status);
+  axis::beginCycle(axis);
+}
+
 /// Where a torque takes the axis in this cycle: what the drive is told must lie there when it
 /// regulates positions or velocities again. Returns that velocity. [u/s]
 double DriveGroup::leadOn(size_t index) {
@@ -353,8 +359,7 @@ double DriveGroup::leadOn(size_t index) {
 }
 
 /// The set position as increments. Returns the velocity that the drive is told. [u/s]
-double DriveGroup::placeSet(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
+double DriveGroup::placeSet(size_t index, axis::AxisRef &axis) {
   if (axis::isDriveHoming(axis))
     return axis.fSetVelocity;
   const axis::Regulated regulated = axis::regulated(axis);
@@ -373,21 +378,18 @@ double DriveGroup::placeSet(size_t index) {
   return axis.fSetVelocity;
 }
 
-void DriveGroup::writeDrive(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
-  if (!isServed(axis))
-    return;
+void DriveGroup::writeDrive(size_t index, axis::AxisRef &axis, bool power) {
   axis::supervise(axis);
-  const double velocity = placeSet(index);
+  const double velocity = placeSet(index, axis);
   DriveCommand command;
   command.position = static_cast<uint32_t>(axis.liSetIncrements);
   command.velocity = velocity / axis.fFactorVel;
   command.acceleration = axis.fSetAcceleration / axis.fFactorAcc;
   command.torque = axis.fSetTorque / axis.fFactorTor;
   command.current = axis.fSetCurrent;
-  const bool power = group_->wState != kResetPowerOff && !isSwitchedOff(axis);
-  command.regulatorOn = power && axis.bRegulatorOn != 0;
-  command.driveStart = power && axis.bDriveStart != 0;
+  const bool on = power && !isSwitchedOff(axis);
+  command.regulatorOn = on && axis.bRegulatorOn != 0;
+  command.driveStart = on && axis.bDriveStart != 0;
   command.errorAckn = axis.bErrorAckn != 0;
   command.homing = axis::isDriveHoming(axis);
   writeCaptures(axis, *driver_, index, command);
@@ -396,8 +398,10 @@ void DriveGroup::writeDrive(size_t index) {
 }
 
 void DriveGroup::executeEnd() {
+  const bool power = group_->wState != kResetPowerOff;
   for (size_t i = 0; i < axes_.size(); ++i)
-    writeDrive(i);
+    if (axis::AxisRef &axis = *axes_[i]; isServed(axis))
+      writeDrive(i, axis, power);
   driver_->executeEnd();
 }
 
