@@ -68,28 +68,6 @@ DriveGroup::DriveGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
   }
 }
 
-void DriveGroup::executeStart() {
-  ++group_->udiCycleCount;
-  driver_->executeStart();
-  if (group_->udiResetsBegun != group_->udiResetsAsked)
-    beginReset();
-  else if (resetting())
-    stepReset();
-  if (group_->wState < axis::kNormalOperation)
-    startUp();
-  const bool begins = resetting();
-  for (size_t i = 0; i < axes_.size(); ++i) {
-    axis::AxisRef &axis = *axes_[i];
-    if (begins || asksForRestart(axis))
-      serveRestart(i);
-    readDrive(i, axis);
-    if (axis::channelStep(axis.stChannel) != axis::ChannelStep::Idle)
-      serveParameters(i);
-  }
-  if (group_->wState == axis::kNormalOperation)
-    readEncoders();
-}
-
 /// What has not been heard of for a while may be anywhere: it begins where it is then.
 void DriveGroup::readEncoders() {
   for (size_t i = 0; i < encoders_.size(); ++i) {
@@ -321,15 +299,13 @@ void followDrive(axis::AxisRef &axis, const DriveStatus &status) {
     axis::followActual(axis);
 }
 
-} // namespace
-
-void DriveGroup::readDrive(size_t index, axis::AxisRef &axis) {
+void readDrive(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
   if (!isServed(axis)) {
     if (axis.bRealDrive != 0)
       axis.bMovedInThisCycle = 0;
     return;
   }
-  const DriveStatus status = driver_->status(index);
+  const DriveStatus status = driver.status(index);
   const uint8_t before = axis.byRealControllerMode;
   readState(axis, status);
   readActual(axis, status);
@@ -347,10 +323,9 @@ void DriveGroup::readDrive(size_t index, axis::AxisRef &axis) {
 
 /// Where a torque takes the axis in this cycle: what the drive is told must lie there when it
 /// regulates positions or velocities again. Returns that velocity. [u/s]
-double DriveGroup::leadOn(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
+double leadOn(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
   // Set values that stand for actual ones say nothing.
-  if ((driver_->status(index).received & (kPosition | kVelocity)) == 0 || !axis::isPowered(axis))
+  if ((driver.status(index).received & (kPosition | kVelocity)) == 0 || !axis::isPowered(axis))
     return 0.0;
   const double way = axis.fActVelocity * axis.fTaskCycle + axis::wayOfLag(axis, axis.fActVelocity);
   axis.fSetPosition = axis::shownPosition(axis, axis.fSetPosition + way);
@@ -359,12 +334,12 @@ double DriveGroup::leadOn(size_t index) {
 }
 
 /// The set position as increments. Returns the velocity that the drive is told. [u/s]
-double DriveGroup::placeSet(size_t index, axis::AxisRef &axis) {
+double placeSet(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
   if (axis::isDriveHoming(axis))
     return axis.fSetVelocity;
   const axis::Regulated regulated = axis::regulated(axis);
   if (regulated == axis::Regulated::Force)
-    return leadOn(index);
+    return leadOn(driver, index, axis);
   if (axis.bMovedInThisCycle == 0)
     return axis.fSetVelocity;
   const double travel =
@@ -378,9 +353,10 @@ double DriveGroup::placeSet(size_t index, axis::AxisRef &axis) {
   return axis.fSetVelocity;
 }
 
-void DriveGroup::writeDrive(size_t index, axis::AxisRef &axis, bool power) {
+/// `power`: the group lets its drives have it.
+void writeDrive(AxisDriver &driver, size_t index, axis::AxisRef &axis, bool power) {
   axis::supervise(axis);
-  const double velocity = placeSet(index, axis);
+  const double velocity = placeSet(driver, index, axis);
   DriveCommand command;
   command.position = static_cast<uint32_t>(axis.liSetIncrements);
   command.velocity = velocity / axis.fFactorVel;
@@ -392,17 +368,45 @@ void DriveGroup::writeDrive(size_t index, axis::AxisRef &axis, bool power) {
   command.driveStart = on && axis.bDriveStart != 0;
   command.errorAckn = axis.bErrorAckn != 0;
   command.homing = axis::isDriveHoming(axis);
-  writeCaptures(axis, *driver_, index, command);
+  writeCaptures(axis, driver, index, command);
   command.controllerMode = axis.byControllerMode;
-  driver_->command(index, command);
+  driver.command(index, command);
+}
+
+} // namespace
+
+void DriveGroup::executeStart() {
+  ++group_->udiCycleCount;
+  driver_->executeStart();
+  if (group_->udiResetsBegun != group_->udiResetsAsked)
+    beginReset();
+  else if (resetting())
+    stepReset();
+  if (group_->wState < axis::kNormalOperation)
+    startUp();
+  const bool begins = resetting();
+  AxisDriver &driver = *driver_;
+  axis::AxisRef *const *const axes = axes_.data();
+  for (size_t i = 0, count = axes_.size(); i < count; ++i) {
+    axis::AxisRef &axis = *axes[i];
+    if (begins || asksForRestart(axis))
+      serveRestart(i);
+    readDrive(driver, i, axis);
+    if (axis::channelStep(axis.stChannel) != axis::ChannelStep::Idle)
+      serveParameters(i);
+  }
+  if (group_->wState == axis::kNormalOperation)
+    readEncoders();
 }
 
 void DriveGroup::executeEnd() {
   const bool power = group_->wState != kResetPowerOff;
-  for (size_t i = 0; i < axes_.size(); ++i)
-    if (axis::AxisRef &axis = *axes_[i]; isServed(axis))
-      writeDrive(i, axis, power);
-  driver_->executeEnd();
+  AxisDriver &driver = *driver_;
+  axis::AxisRef *const *const axes = axes_.data();
+  for (size_t i = 0, count = axes_.size(); i < count; ++i)
+    if (axis::AxisRef &axis = *axes[i]; isServed(axis))
+      writeDrive(driver, i, axis, power);
+  driver.executeEnd();
 }
 
 void DriveGroup::stopAll() {

@@ -83,12 +83,8 @@ private:
   void startAgain(size_t index);
   bool anyPower() const;
   bool axesAtRest() const;
-  void readDrive(size_t index, axis::AxisRef &axis);
   void serveParameters(size_t index);
   void dropParameters(size_t index);
-  double leadOn(size_t index);
-  double placeSet(size_t index, axis::AxisRef &axis);
-  void writeDrive(size_t index, axis::AxisRef &axis, bool power);
 
   std::unique_ptr<AxisDriver> driver_;
   AxisGroupRef *group_;

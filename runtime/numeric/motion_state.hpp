@@ -58,7 +58,8 @@ inline double sineDefect(double x, double sine) noexcept {
 inline MotionState evaluatePiece(const MotionState &origin, double jerk, double frequency,
                                  double t) noexcept {
   if (__builtin_expect(frequency > 0.0, 0))
-    return evaluateSine(origin, jerk, frequency, t);
+    return evaluateSine({origin.position, origin.velocity, origin.acceleration}, jerk, frequency,
+                        t);
   return evaluateCubic(origin, jerk, t);
 }
 
