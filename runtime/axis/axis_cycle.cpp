@@ -135,9 +135,10 @@ double headingOf(const AxisRef &axis) noexcept {
 }
 
 void superviseLimits(AxisRef &axis) noexcept {
+  if (!isAtLimit(axis))
+    return;
   const bool above = axis.fSetPosition > axis.fSWLimitPositive;
   const bool below = axis.fSetPosition < axis.fSWLimitNegative;
-  axis.bSWEndSwitchActive = axis.bSWLimitEnable != 0 && (above || below);
   const double heading = headingOf(axis);
   const bool outward =
       axis.bSWEndSwitchActive != 0 && ((above && heading > 0.0) || (below && heading < 0.0));
@@ -207,17 +208,6 @@ void acknowledge(AxisRef &axis) noexcept {
   axis.nAxisState = state::kPowerOff;
 }
 
-void beginCycle(AxisRef &axis) noexcept {
-  axis.fSavePosition = axis.fSetPosition;
-  axis.fSaveVelocity = axis.fSetVelocity;
-  axis.fSaveAcceleration = axis.fSetAcceleration;
-  axis.fSaveDeceleration = axis.fSetDeceleration;
-  axis.bMovedInThisCycle = 0;
-  axis.bTravelGiven = 0;
-  axis.stSuperimposed.bMovedInThisCycle = 0;
-  axis.bHWLimitIgnored = 0;
-}
-
 void changeRegulated(AxisRef &axis, Regulated before) noexcept {
   const Regulated now = regulated(axis);
   if (now == before || axis.nAxisState == state::kPowerOff)
@@ -248,7 +238,7 @@ void changeRegulated(AxisRef &axis, Regulated before) noexcept {
     axis.nAxisState = state::kDiscrete;
 }
 
-void supervise(AxisRef &axis) noexcept {
+void superviseThoroughly(AxisRef &axis) noexcept {
   if (!isPowered(axis)) {
     leaveUnpowered(axis);
     return;
@@ -261,11 +251,6 @@ void supervise(AxisRef &axis) noexcept {
     return;
   axis.fSetTorque = 0.0; // no set position brakes a drive that regulates a torque
   axis.fSetCurrent = 0.0;
-}
-
-double wayOfCycle(const AxisRef &axis) noexcept {
-  return axis.bTravelGiven != 0 ? axis.fTravel
-                                : 0.5 * (axis.fSaveVelocity + axis.fSetVelocity) * axis.fTaskCycle;
 }
 
 double wayOfLag(const AxisRef &axis, double velocity) noexcept {

@@ -4,7 +4,7 @@
 #ifndef STRIDE_RUNTIME_AXIS_AXIS_CYCLE_HPP
 #define STRIDE_RUNTIME_AXIS_AXIS_CYCLE_HPP
 
-#include "runtime/axis/axis_ref.hpp"
+#include "runtime/axis/set_point.hpp"
 
 namespace stride::axis {
 
@@ -25,7 +25,16 @@ void haltAt(AxisRef &axis) noexcept;
 void acknowledge(AxisRef &axis) noexcept;
 
 /// Notes the set values with which a cycle begins; nobody has moved the axis in it.
-void beginCycle(AxisRef &axis) noexcept;
+inline void beginCycle(AxisRef &axis) noexcept {
+  axis.fSavePosition = axis.fSetPosition;
+  axis.fSaveVelocity = axis.fSetVelocity;
+  axis.fSaveAcceleration = axis.fSetAcceleration;
+  axis.fSaveDeceleration = axis.fSetDeceleration;
+  axis.bMovedInThisCycle = 0;
+  axis.bTravelGiven = 0;
+  axis.stSuperimposed.bMovedInThisCycle = 0;
+  axis.bHWLimitIgnored = 0;
+}
 
 /// The drive regulates something else than it did (`before`) when the last cycle ended. A velocity
 /// command goes on where a velocity is still regulated; whoever else moved the axis loses it with
@@ -33,12 +42,40 @@ void beginCycle(AxisRef &axis) noexcept;
 /// beginCycle.
 void changeRegulated(AxisRef &axis, Regulated before) noexcept;
 
+/// Whether there is nothing to supervise but limits: the axis has power and stands, or its owner
+/// has moved it.
+inline bool isServedByOwner(const AxisRef &axis) noexcept {
+  if (!isPowered(axis) || axis.nAxisState == state::kErrorStop || axis.stSuperimposed.ulOwner != 0)
+    return false;
+  return axis.iOwner != 0 ? axis.bMovedInThisCycle != 0 : axis.nAxisState == state::kStandstill;
+}
+
+/// Writes bSWEndSwitchActive of a linear axis. Whether it is outside of its software limits, or at
+/// a limit switch that counts.
+inline bool isAtLimit(AxisRef &axis) noexcept {
+  const bool outside =
+      axis.fSetPosition > axis.fSWLimitPositive || axis.fSetPosition < axis.fSWLimitNegative;
+  axis.bSWEndSwitchActive = axis.bSWLimitEnable != 0 && outside;
+  const bool watched = axis.bHWLimitEnable != 0 && axis.bHWLimitIgnored == 0;
+  return axis.bSWEndSwitchActive != 0 ||
+         (watched && (axis.bLimitSwitchPositive != 0 || axis.bLimitSwitchNegative != 0));
+}
+
+/// supervise, where there may be something to do.
+void superviseThoroughly(AxisRef &axis) noexcept;
+
 /// Before the set values of a cycle are sent: an axis without power is given up; error stops for
 /// owners that did not move it and for limits; braking goes on.
-void supervise(AxisRef &axis) noexcept;
+inline void supervise(AxisRef &axis) noexcept {
+  if (!isServedByOwner(axis) || (axis.iMovementType != 0 && isAtLimit(axis)))
+    superviseThoroughly(axis);
+}
 
 /// The way of this cycle by the set velocities, or as the block that moved the axis gave it. [u]
-double wayOfCycle(const AxisRef &axis) noexcept;
+inline double wayOfCycle(const AxisRef &axis) noexcept {
+  return axis.bTravelGiven != 0 ? axis.fTravel
+                                : 0.5 * (axis.fSaveVelocity + axis.fSetVelocity) * axis.fTaskCycle;
+}
 
 /// The way that the axis makes with the velocity while values are on their way to the drive and
 /// back (fSetActTimeLagCycles). [u]

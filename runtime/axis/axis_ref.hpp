@@ -116,11 +116,11 @@ enum class Regulated : uint8_t {
   Force,    ///< Torque or current: the axis goes where that takes it.
 };
 
-/// What the drive regulates now. A drive that has no position control counts as one that has: it is
-/// positioned by the course of the set velocity.
-inline Regulated regulated(const AxisRef &axis) noexcept {
+/// What the drive regulates in a controller mode. A drive that has no position control counts as
+/// one that has: it is positioned by the course of the set velocity.
+inline Regulated regulatedIn(const AxisRef &axis, uint8_t controllerMode) noexcept {
   namespace mode = ::st::SM_DriveBasic;
-  switch (axis.byRealControllerMode) {
+  switch (controllerMode) {
   case mode::SMC_CONTROLLER_MODE__SMC_torque:
   case mode::SMC_CONTROLLER_MODE__SMC_current:
     return Regulated::Force;
@@ -131,6 +131,11 @@ inline Regulated regulated(const AxisRef &axis) noexcept {
   default:
     return Regulated::Position;
   }
+}
+
+/// What the drive regulates now.
+inline Regulated regulated(const AxisRef &axis) noexcept {
+  return regulatedIn(axis, axis.byRealControllerMode);
 }
 
 /// Whether positions are taken modulo the period.

@@ -3,7 +3,7 @@
 #ifndef STRIDE_RUNTIME_AXIS_COMMAND_HPP
 #define STRIDE_RUNTIME_AXIS_COMMAND_HPP
 
-#include "runtime/axis/axis_ref.hpp"
+#include "runtime/axis/set_point.hpp"
 
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 #include "st/SM_DriveBasic/SMC_MOTION_COMMAND.h"
@@ -68,6 +68,20 @@ void beginCoasting(AxisRef &axis, uint64_t owner) noexcept;
 /// and stPlanner.bActive says whether the axis goes on from there. True: it has been reached and
 /// the next command owns the axis.
 bool advance(AxisRef &axis) noexcept;
+
+/// advance, where the cycle neither begins beyond the target nor reaches it, and the axis has not
+/// been moved in it: as good as always. False: nothing has been done.
+inline bool advanceOnWay(AxisRef &axis) noexcept {
+  auto &plan = axis.stPlanner;
+  if (axis.bMovedInThisCycle != 0 || plan.bActive == 0 || plan.bReached != 0)
+    return false;
+  const double t = axis::planTime(plan, plan.ulCycle + 1);
+  if (axis::isPlanOver(plan, t))
+    return false;
+  ++plan.ulCycle;
+  axis::writeSetPoint(axis, axis::pieceState(plan, t));
+  return true;
+}
 
 /// Plans the motion in progress anew towards the same target, after the overrides have changed.
 void applyOverrides(AxisRef &axis) noexcept;

@@ -10,7 +10,6 @@ namespace {
 __extension__ using Wide = __int128;
 
 constexpr int kFractionBits = 46; // a numerator shifted by these fits 63 bits
-constexpr double kLinearRange = 0x1p46;
 
 uint64_t greatestCommonDivisor(uint64_t a, uint64_t b) noexcept {
   while (b != 0) {
@@ -68,22 +67,6 @@ void advanceTurns(const AxisRef &axis, int64_t &start, int64_t &rest, int64_t tu
   }
   start += static_cast<int64_t>(Wide{turns} * Wide{axis.liTurnIncrements} + carry);
   rest = static_cast<int64_t>(left);
-}
-
-double incrementsPerUnit(const AxisRef &axis, double units) noexcept {
-  return units * static_cast<double>(axis.dwRatioTechUnitsDenom) /
-         static_cast<double>(axis.iRatioTechUnitsNum);
-}
-
-double unitsPerIncrement(const AxisRef &axis, double increments) noexcept {
-  return increments * static_cast<double>(axis.iRatioTechUnitsNum) /
-         static_cast<double>(axis.dwRatioTechUnitsDenom);
-}
-
-/// Whether the axis counts turns: a rotary axis whose scaling has been configured as such. (A
-/// program that writes iMovementType changes nothing until the group starts up again.)
-bool countsTurns(const AxisRef &axis) noexcept {
-  return axis.iMovementType == 0 && axis.liTurnIncrements > 0;
 }
 
 /// The manual's residual members (1230 ff.) mirror the exact ones, as far as they can hold them.
@@ -154,14 +137,7 @@ void synchronizePosition(AxisRef &axis, uint32_t counter) noexcept {
   followActual(axis);
 }
 
-void updateActual(AxisRef &axis, uint32_t counter) noexcept {
-  axis.liActIncrements +=
-      static_cast<int32_t>(counter - static_cast<uint32_t>(axis.liActIncrements));
-  if (!countsTurns(axis)) {
-    axis.fActPosition =
-        unitsPerIncrement(axis, static_cast<double>(axis.liActIncrements)) + axis.fOffsetPosition;
-    return;
-  }
+void updateActualTurns(AxisRef &axis) noexcept {
   const auto inTurn = [&axis] {
     return static_cast<double>(axis.liActIncrements - axis.liActTurnStart) -
            remainder(axis.liActTurnRest, axis.liTurnDenominator);
@@ -178,29 +154,20 @@ void updateActual(AxisRef &axis, uint32_t counter) noexcept {
                                             axis.fPositionPeriod);
 }
 
-bool updateSet(AxisRef &axis, double travel) noexcept {
-  const double position = axis.fSetPosition - axis.fOffsetPosition;
-  if (!countsTurns(axis)) {
-    const double increments = incrementsPerUnit(axis, position);
-    if (!(::fabs(increments) < kLinearRange))
-      return false;
-    axis.liSetIncrements = ::llround(increments);
-    return true;
-  }
+void updateSetTurns(AxisRef &axis, double travel) noexcept {
   const double period = axis.fPositionPeriod;
-  const double place = numeric::wrapPosition(position, period);
+  const double place = numeric::wrapPosition(axis.fSetPosition - axis.fOffsetPosition, period);
   const double surplus = (travel - (place - axis.fLastPosition)) / period;
   if (::fabs(surplus) >= 0.5 && ::fabs(surplus) < 0x1p31) {
-    const int64_t turns = ::llround(surplus);
+    const int64_t turns = exact::nearest(surplus);
     advanceTurns(axis, axis.liSetTurnStart, axis.liSetTurnRest, turns);
     axis.iTurn = static_cast<int16_t>(axis.iTurn + turns);
     mirrorResiduals(axis);
   }
   axis.fLastPosition = place;
   axis.liSetIncrements =
-      axis.liSetTurnStart + ::llround(remainder(axis.liSetTurnRest, axis.liTurnDenominator) +
-                                      incrementsPerUnit(axis, place));
-  return true;
+      axis.liSetTurnStart + exact::nearest(remainder(axis.liSetTurnRest, axis.liTurnDenominator) +
+                                           incrementsPerUnit(axis, place));
 }
 
 void followActual(AxisRef &axis) noexcept {

@@ -3,8 +3,12 @@
 #define STRIDE_RUNTIME_AXIS_INCREMENTS_HPP
 
 #include "runtime/axis/axis_ref.hpp"
+#include "runtime/numeric/exact_math.hpp"
 
 namespace stride::axis {
+
+/// A linear axis leaves its range here. [inc]
+inline constexpr double kLinearRange = 0x1p46;
 
 /// Why an axis's scaling cannot be used.
 enum class ScalingError : uint8_t {
@@ -23,9 +27,38 @@ ScalingError configureScaling(AxisRef &axis) noexcept;
 /// Makes actual and set position start at `counter`, the drive's position counter. Without turns.
 void synchronizePosition(AxisRef &axis, uint32_t counter) noexcept;
 
+/// Whether the axis counts turns: a rotary axis whose scaling has been configured as such. (A
+/// program that writes iMovementType changes nothing until the group starts up again.)
+inline bool countsTurns(const AxisRef &axis) noexcept {
+  return axis.iMovementType == 0 && axis.liTurnIncrements > 0;
+}
+
+/// Technical units [u] as increments. [inc]
+inline double incrementsPerUnit(const AxisRef &axis, double units) noexcept {
+  return units * static_cast<double>(axis.dwRatioTechUnitsDenom) /
+         static_cast<double>(axis.iRatioTechUnitsNum);
+}
+
+/// Increments [inc] as technical units. [u]
+inline double unitsPerIncrement(const AxisRef &axis, double increments) noexcept {
+  return increments * static_cast<double>(axis.iRatioTechUnitsNum) /
+         static_cast<double>(axis.dwRatioTechUnitsDenom);
+}
+
+/// updateActual for an axis that counts turns, after its increments have been taken over.
+void updateActualTurns(AxisRef &axis) noexcept;
+
 /// Takes over the drive's position counter, which wraps at 2^32, into liActIncrements and
 /// fActPosition. The drive may move by less than 2^31 increments between two calls.
-void updateActual(AxisRef &axis, uint32_t counter) noexcept;
+inline void updateActual(AxisRef &axis, uint32_t counter) noexcept {
+  axis.liActIncrements +=
+      static_cast<int32_t>(counter - static_cast<uint32_t>(axis.liActIncrements));
+  if (countsTurns(axis))
+    updateActualTurns(axis);
+  else
+    axis.fActPosition =
+        unitsPerIncrement(axis, static_cast<double>(axis.liActIncrements)) + axis.fOffsetPosition;
+}
 
 /// The position [u] that belongs to a position counter less than 2^31 away from the last one taken
 /// over: where the axis was when the drive latched it.
@@ -40,10 +73,23 @@ struct TurnFraction {
 [[nodiscard]] TurnFraction lengthOfTurn(double period, uint32_t denominator,
                                         uint32_t numerator) noexcept;
 
+/// updateSet for an axis that counts turns.
+void updateSetTurns(AxisRef &axis, double travel) noexcept;
+
 /// Converts fSetPosition into liSetIncrements. On a rotary axis `travel` [u], the way that the axis
 /// makes in this cycle (half a turn more or less), tells turns apart. False if a linear axis leaves
 /// the range of 2^46 increments; liSetIncrements keeps its value then.
-bool updateSet(AxisRef &axis, double travel) noexcept;
+inline bool updateSet(AxisRef &axis, double travel) noexcept {
+  if (countsTurns(axis)) {
+    updateSetTurns(axis, travel);
+    return true;
+  }
+  const double increments = incrementsPerUnit(axis, axis.fSetPosition - axis.fOffsetPosition);
+  if (!(exact::fabs(increments) < kLinearRange))
+    return false;
+  axis.liSetIncrements = exact::nearest(increments);
+  return true;
+}
 
 /// Lets the set position follow the actual one: an axis without power does not hold its place.
 void followActual(AxisRef &axis) noexcept;

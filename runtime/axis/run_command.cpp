@@ -89,8 +89,14 @@ void startCommand(BlockState &block, AxisRef &ref, const Command &inputs) noexce
 void continueCommand(BlockState &block, AxisRef &ref) noexcept {
   if (block.bWaiting != 0 && !awaitTurn(block, ref))
     return;
-  if (keep(block, ref))
+  if (!keep(block, ref))
+    return;
+  if (!advanceOnWay(ref)) {
     move(block, ref);
+    return;
+  }
+  block.bReached = 0;
+  block.bDone = 0;
 }
 
 } // namespace stride::motion

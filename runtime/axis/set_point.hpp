@@ -18,14 +18,17 @@ inline void writeMotion(AxisRef &axis, double velocity, double acceleration) noe
   axis.fSetAcceleration = acceleration + 0.0;
   const double power = velocity * acceleration;
   axis.fSetDeceleration = power < 0.0 ? exact::fabs(acceleration) : 0.0;
-  axis.bConstantVelocity = velocity != 0.0 && acceleration == 0.0;
-  axis.bAccelerating = power > 0.0 || (velocity == 0.0 && acceleration != 0.0);
+  // Without branches, which axes that move differently would let the processor guess wrong.
+  const bool stands = exact::isZero(velocity);
+  const bool steady = exact::isZero(acceleration);
+  axis.bConstantVelocity = static_cast<uint8_t>(!stands & steady);
+  axis.bAccelerating = static_cast<uint8_t>((power > 0.0) | (stands & !steady));
   axis.bDecelerating = power < 0.0;
-  if (velocity > 0.0)
-    axis.nDirection = ::st::SM_DriveBasic::MC_Direction__positive;
-  else if (velocity < 0.0)
-    axis.nDirection = ::st::SM_DriveBasic::MC_Direction__negative;
+  const int direction = static_cast<int>(velocity > 0.0) - static_cast<int>(velocity < 0.0);
+  axis.nDirection = direction != 0 ? static_cast<int16_t>(direction) : axis.nDirection;
 }
+static_assert(::st::SM_DriveBasic::MC_Direction__positive == 1 &&
+              ::st::SM_DriveBasic::MC_Direction__negative == -1);
 
 /// `position` as the axis shows it: within the period on a rotary axis.
 inline double shownPosition(const AxisRef &axis, double position) noexcept {
@@ -83,10 +86,14 @@ inline void appendSegment(PlannerState &plan, double start, double reference,
   segment.fFrequency = frequency;
 }
 
-/// The time into the plan at its present cycle. [s]
-inline double planTime(const PlannerState &plan) noexcept {
-  return plan.fShift + static_cast<double>(plan.ulCycle) * plan.fCycle;
+/// The time into the plan at a cycle of it. [s]
+inline double planTime(const PlannerState &plan, uint64_t cycle) noexcept {
+  // Signed: there is no instruction for the other conversion.
+  return plan.fShift + static_cast<double>(static_cast<int64_t>(cycle)) * plan.fCycle;
 }
+
+/// The time into the plan at its present cycle. [s]
+inline double planTime(const PlannerState &plan) noexcept { return planTime(plan, plan.ulCycle); }
 
 /// Whether the plan is at its end at time `t`. A move that ends with a cycle must not need one more
 /// because of the last digit of a product.
@@ -96,12 +103,12 @@ inline bool isPlanOver(const PlannerState &plan, double t) noexcept {
 
 /// The state at time `t` before the end, which must not go back from call to call.
 inline numeric::MotionState pieceState(PlannerState &plan, double t) noexcept {
-  while (plan.uiSegment + 1 < plan.uiSegmentCount &&
-         t >= plan.aSegment.v[plan.uiSegment + 1].fStart)
+  const auto *segment = &plan.aSegment.v[plan.uiSegment];
+  for (; plan.uiSegment + 1 < plan.uiSegmentCount && t >= segment[1].fStart; ++segment)
     ++plan.uiSegment;
-  const auto &segment = plan.aSegment.v[plan.uiSegment];
-  const numeric::MotionState origin{segment.fPosition, segment.fVelocity, segment.fAcceleration};
-  return numeric::evaluatePiece(origin, segment.fJerk, segment.fFrequency, t - segment.fReference);
+  const numeric::MotionState origin{segment->fPosition, segment->fVelocity, segment->fAcceleration};
+  return numeric::evaluatePiece(origin, segment->fJerk, segment->fFrequency,
+                                t - segment->fReference);
 }
 
 /// The state at time `t` at or after the end: on with the end velocity.
@@ -117,17 +124,10 @@ inline numeric::MotionState planState(PlannerState &plan, double t) noexcept {
   return isPlanOver(plan, t) ? stateAfterEnd(plan, t) : pieceState(plan, t);
 }
 
-/// Moves the axis's plan on by one cycle and writes the set values. Returns true in the cycle in
-/// which the end is reached: without an end velocity the plan is over then, and the position is the
-/// target, bit for bit; with one, the axis goes on.
-inline bool stepPlan(AxisRef &axis) noexcept {
+/// stepPlan at time `t` at or after the end. A function of its own, so that what is done in every
+/// cycle can be part of its callers.
+[[gnu::noinline]] inline bool stepBeyondEnd(AxisRef &axis, double t) noexcept {
   auto &plan = axis.stPlanner;
-  ++plan.ulCycle;
-  const double t = planTime(plan);
-  if (!isPlanOver(plan, t)) {
-    writeSetPoint(axis, pieceState(plan, t));
-    return false;
-  }
   numeric::MotionState state = stateAfterEnd(plan, t);
   if (plan.fEndVelocity == 0.0 && plan.bHeld == 0) {
     state.position = plan.fTarget;
@@ -138,6 +138,19 @@ inline bool stepPlan(AxisRef &axis) noexcept {
     return false;
   plan.bReached = 1;
   return true;
+}
+
+/// Moves the axis's plan on by one cycle and writes the set values. Returns true in the cycle in
+/// which the end is reached: without an end velocity the plan is over then, and the position is the
+/// target, bit for bit; with one, the axis goes on.
+inline bool stepPlan(AxisRef &axis) noexcept {
+  auto &plan = axis.stPlanner;
+  ++plan.ulCycle;
+  const double t = planTime(plan);
+  if (isPlanOver(plan, t))
+    return stepBeyondEnd(axis, t);
+  writeSetPoint(axis, pieceState(plan, t));
+  return false;
 }
 
 } // namespace stride::axis

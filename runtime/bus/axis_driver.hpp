@@ -22,8 +22,8 @@ enum class Homing : uint8_t {
 };
 
 /// What a drive reports in every cycle. Lengths in increments.
+/// In 64 bytes, which a driver of many drives may align to: one cache line for each.
 struct DriveStatus {
-  uint32_t position = 0;      ///< Position counter; wraps at 2^32. [inc]
   double velocity = 0;        ///< [inc/s]
   double torque = 0;          ///< In the bus's unit.
   double current = 0;         ///< [A]
@@ -38,7 +38,8 @@ struct DriveStatus {
   bool limitNegative = false; ///< The negative limit switch is actuated.
   bool homeSwitch = false;    ///< The home switch is actuated.
   Homing homing = Homing::None;
-  uint32_t homePosition = 0; ///< Found: the position counter at the reference. [inc]
+  uint32_t position = 0;     ///< Position counter; wraps at 2^32. [inc]
+  uint32_t homePosition = 0; ///< homing is Found: the position counter at the reference. [inc]
 
   /// Capture inputs that a drive can have at most.
   static constexpr size_t kCaptureInputs = 4;
@@ -48,6 +49,7 @@ struct DriveStatus {
   /// … with the position counter here. [inc]
   std::array<uint32_t, kCaptureInputs> capturedPosition{};
 };
+static_assert(sizeof(DriveStatus) == 64);
 
 /// What a drive is told in every cycle. Lengths in increments.
 struct DriveCommand {

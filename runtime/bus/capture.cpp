@@ -44,7 +44,7 @@ uint8_t wantedInputs(const axis::AxisRef &axis) {
 
 } // namespace
 
-void readCaptures(axis::AxisRef &axis, const DriveStatus &status) noexcept {
+void takeCaptures(axis::AxisRef &axis, const DriveStatus &status) noexcept {
   const uint8_t latched = axis.byCaptureArmed & status.captured;
   axis.byCaptureArmed = axis.byCaptureArmed & static_cast<uint8_t>(~latched);
   for (size_t i = 0; latched != 0 && i < kInputs; ++i) {
@@ -64,8 +64,8 @@ void readCaptures(axis::AxisRef &axis, const DriveStatus &status) noexcept {
   }
 }
 
-void writeCaptures(axis::AxisRef &axis, const AxisDriver &driver, size_t drive,
-                   DriveCommand &command) noexcept {
+void demandCaptures(axis::AxisRef &axis, const AxisDriver &driver, size_t drive,
+                    DriveCommand &command) noexcept {
   const auto &trigger = axis.tiTriggerInput;
   if (programWaits(axis) && trigger.bFastLatching == 0 && trigger.bInput != 0)
     captureForProgram(axis, axis.fActPosition);

@@ -2,6 +2,7 @@
 
 #include "runtime/axis/axis_cycle.hpp"
 #include "runtime/axis/increments.hpp"
+#include "runtime/axis/parameter_channel.hpp"
 #include "runtime/axis/set_point.hpp"
 #include "runtime/axis/shift_position.hpp"
 #include "runtime/bus/capture.hpp"
@@ -65,24 +66,6 @@ DriveGroup::DriveGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
     encoder->fTaskCycle = cycleSeconds;
     encoder->bValid = 0;
   }
-}
-
-void DriveGroup::executeStart() {
-  ++group_->udiCycleCount;
-  driver_->executeStart();
-  if (group_->udiResetsBegun != group_->udiResetsAsked)
-    beginReset();
-  else if (resetting())
-    stepReset();
-  if (group_->wState < axis::kNormalOperation)
-    startUp();
-  for (size_t i = 0; i < axes_.size(); ++i) {
-    serveRestart(i);
-    readDrive(i);
-    serveParameters(i);
-  }
-  if (group_->wState == axis::kNormalOperation)
-    readEncoders();
 }
 
 /// What has not been heard of for a while may be anywhere: it begins where it is then.
@@ -282,45 +265,8 @@ void followErrors(axis::AxisRef &axis, const DriveStatus &status) {
   }
 }
 
-} // namespace
-
-void DriveGroup::readDrive(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
-  if (!isServed(axis)) {
-    if (axis.bRealDrive != 0)
-      axis.bMovedInThisCycle = 0;
-    return;
-  }
-  const DriveStatus status = driver_->status(index);
-  const axis::Regulated before = axis::regulated(axis);
-  readState(axis, status);
-  readActual(axis, status);
-  readCaptures(axis, status);
-  followErrors(axis, status);
-  if (!axis::isPowered(axis))
-    axis::leaveUnpowered(axis);
-  else if (axis.nAxisState == axis::state::kPowerOff)
-    axis.nAxisState = axis::state::kStandstill;
-  axis::changeRegulated(axis, before);
-  readHoming(axis, status);
-  if (followsDrive(axis))
-    axis::followActual(axis);
-  axis::beginCycle(axis);
-}
-
-/// Whether the set position follows the actual one: where no position is regulated, and during a
-/// reference run of the drive.
-bool DriveGroup::followsDrive(const axis::AxisRef &axis) const {
-  return axis::regulated(axis) != axis::Regulated::Position || axis::isDriveHoming(axis);
-}
-
 /// The drive's reference run, started by MC_Home: the position at the reference becomes fReference.
-void DriveGroup::readHoming(axis::AxisRef &axis, const DriveStatus &status) {
-  if (!axis::isDriveHoming(axis)) {
-    axis.bStartReference = 0;
-    axis.byHoming = static_cast<uint8_t>(axis::DriveHoming::None);
-    return;
-  }
+void readHoming(axis::AxisRef &axis, const DriveStatus &status) {
   switch (status.homing) {
   case Homing::None:
     break;
@@ -339,12 +285,47 @@ void DriveGroup::readHoming(axis::AxisRef &axis, const DriveStatus &status) {
   axis::writeMotion(axis, axis.fActVelocity, 0.0);
 }
 
+/// The set position follows the actual one where no position is regulated, and during a reference
+/// run of the drive.
+void followDrive(axis::AxisRef &axis, const DriveStatus &status) {
+  if (axis::isDriveHoming(axis)) {
+    readHoming(axis, status);
+    axis::followActual(axis);
+    return;
+  }
+  axis.bStartReference = 0;
+  axis.byHoming = static_cast<uint8_t>(axis::DriveHoming::None);
+  if (axis::regulated(axis) != axis::Regulated::Position)
+    axis::followActual(axis);
+}
+
+void readDrive(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
+  if (!isServed(axis)) {
+    if (axis.bRealDrive != 0)
+      axis.bMovedInThisCycle = 0;
+    return;
+  }
+  const DriveStatus status = driver.status(index);
+  const uint8_t before = axis.byRealControllerMode;
+  readState(axis, status);
+  readActual(axis, status);
+  readCaptures(axis, status);
+  followErrors(axis, status);
+  if (!axis::isPowered(axis))
+    axis::leaveUnpowered(axis);
+  else if (axis.nAxisState == axis::state::kPowerOff)
+    axis.nAxisState = axis::state::kStandstill;
+  if (axis.byRealControllerMode != before)
+    axis::changeRegulated(axis, axis::regulatedIn(axis, before));
+  followDrive(axis, status);
+  axis::beginCycle(axis);
+}
+
 /// Where a torque takes the axis in this cycle: what the drive is told must lie there when it
 /// regulates positions or velocities again. Returns that velocity. [u/s]
-double DriveGroup::leadOn(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
+double leadOn(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
   // Set values that stand for actual ones say nothing.
-  if ((driver_->status(index).received & (kPosition | kVelocity)) == 0 || !axis::isPowered(axis))
+  if ((driver.status(index).received & (kPosition | kVelocity)) == 0 || !axis::isPowered(axis))
     return 0.0;
   const double way = axis.fActVelocity * axis.fTaskCycle + axis::wayOfLag(axis, axis.fActVelocity);
   axis.fSetPosition = axis::shownPosition(axis, axis.fSetPosition + way);
@@ -353,13 +334,12 @@ double DriveGroup::leadOn(size_t index) {
 }
 
 /// The set position as increments. Returns the velocity that the drive is told. [u/s]
-double DriveGroup::placeSet(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
+double placeSet(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
   if (axis::isDriveHoming(axis))
     return axis.fSetVelocity;
   const axis::Regulated regulated = axis::regulated(axis);
   if (regulated == axis::Regulated::Force)
-    return leadOn(index);
+    return leadOn(driver, index, axis);
   if (axis.bMovedInThisCycle == 0)
     return axis.fSetVelocity;
   const double travel =
@@ -373,32 +353,60 @@ double DriveGroup::placeSet(size_t index) {
   return axis.fSetVelocity;
 }
 
-void DriveGroup::writeDrive(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
-  if (!isServed(axis))
-    return;
+/// `power`: the group lets its drives have it.
+void writeDrive(AxisDriver &driver, size_t index, axis::AxisRef &axis, bool power) {
   axis::supervise(axis);
-  const double velocity = placeSet(index);
+  const double velocity = placeSet(driver, index, axis);
   DriveCommand command;
   command.position = static_cast<uint32_t>(axis.liSetIncrements);
   command.velocity = velocity / axis.fFactorVel;
   command.acceleration = axis.fSetAcceleration / axis.fFactorAcc;
   command.torque = axis.fSetTorque / axis.fFactorTor;
   command.current = axis.fSetCurrent;
-  const bool power = group_->wState != kResetPowerOff && !isSwitchedOff(axis);
-  command.regulatorOn = power && axis.bRegulatorOn != 0;
-  command.driveStart = power && axis.bDriveStart != 0;
+  const bool on = power && !isSwitchedOff(axis);
+  command.regulatorOn = on && axis.bRegulatorOn != 0;
+  command.driveStart = on && axis.bDriveStart != 0;
   command.errorAckn = axis.bErrorAckn != 0;
   command.homing = axis::isDriveHoming(axis);
-  writeCaptures(axis, *driver_, index, command);
+  writeCaptures(axis, driver, index, command);
   command.controllerMode = axis.byControllerMode;
-  driver_->command(index, command);
+  driver.command(index, command);
+}
+
+} // namespace
+
+void DriveGroup::executeStart() {
+  ++group_->udiCycleCount;
+  driver_->executeStart();
+  if (group_->udiResetsBegun != group_->udiResetsAsked)
+    beginReset();
+  else if (resetting())
+    stepReset();
+  if (group_->wState < axis::kNormalOperation)
+    startUp();
+  const bool begins = resetting();
+  AxisDriver &driver = *driver_;
+  axis::AxisRef *const *const axes = axes_.data();
+  for (size_t i = 0, count = axes_.size(); i < count; ++i) {
+    axis::AxisRef &axis = *axes[i];
+    if (begins || asksForRestart(axis))
+      serveRestart(i);
+    readDrive(driver, i, axis);
+    if (axis::channelStep(axis.stChannel) != axis::ChannelStep::Idle)
+      serveParameters(i);
+  }
+  if (group_->wState == axis::kNormalOperation)
+    readEncoders();
 }
 
 void DriveGroup::executeEnd() {
-  for (size_t i = 0; i < axes_.size(); ++i)
-    writeDrive(i);
-  driver_->executeEnd();
+  const bool power = group_->wState != kResetPowerOff;
+  AxisDriver &driver = *driver_;
+  axis::AxisRef *const *const axes = axes_.data();
+  for (size_t i = 0, count = axes_.size(); i < count; ++i)
+    if (axis::AxisRef &axis = *axes[i]; isServed(axis))
+      writeDrive(driver, i, axis, power);
+  driver.executeEnd();
 }
 
 void DriveGroup::stopAll() {

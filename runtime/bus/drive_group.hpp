@@ -83,14 +83,8 @@ private:
   void startAgain(size_t index);
   bool anyPower() const;
   bool axesAtRest() const;
-  void readDrive(size_t index);
-  bool followsDrive(const axis::AxisRef &axis) const;
-  void readHoming(axis::AxisRef &axis, const DriveStatus &status);
   void serveParameters(size_t index);
   void dropParameters(size_t index);
-  double leadOn(size_t index);
-  double placeSet(size_t index);
-  void writeDrive(size_t index);
 
   std::unique_ptr<AxisDriver> driver_;
   AxisGroupRef *group_;

@@ -25,6 +25,10 @@ inline RestartStep restartStep(const axis::AxisRef &axis) noexcept {
 inline bool isRestarting(const axis::AxisRef &axis) noexcept {
   return restartStep(axis) != RestartStep::None;
 }
+/// Whether a restart goes on or begins.
+inline bool asksForRestart(const axis::AxisRef &axis) noexcept {
+  return isRestarting(axis) || axis.stRestart.udiBegun != axis.stRestart.udiAsked;
+}
 inline bool isSwitchedOff(const axis::AxisRef &axis) noexcept {
   return restartStep(axis) == RestartStep::PowerOff;
 }

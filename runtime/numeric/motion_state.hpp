@@ -37,8 +37,9 @@ inline double sineDefect(double x, double sine) noexcept {
 
 /// The state `t` seconds after (or before) `origin`, where the acceleration swings about the
 /// origin's with the angular `frequency` [rad/s], > 0, and at first changes with `jerk` [u/s^3].
-[[gnu::noinline]] inline MotionState evaluateSine(const MotionState &origin, double jerk,
-                                                  double frequency, double t) noexcept {
+/// `origin` by value: else the constant jerk would write it to memory, too.
+[[gnu::noinline]] inline MotionState evaluateSine(MotionState origin, double jerk, double frequency,
+                                                  double t) noexcept {
   const double x = frequency * t;
   const double half = ::stride::sin(0.5 * x);
   const double sine = 2.0 * half * ::stride::cos(0.5 * x);
@@ -57,7 +58,8 @@ inline double sineDefect(double x, double sine) noexcept {
 inline MotionState evaluatePiece(const MotionState &origin, double jerk, double frequency,
                                  double t) noexcept {
   if (__builtin_expect(frequency > 0.0, 0))
-    return evaluateSine(origin, jerk, frequency, t);
+    return evaluateSine({origin.position, origin.velocity, origin.acceleration}, jerk, frequency,
+                        t);
   return evaluateCubic(origin, jerk, t);
 }
 

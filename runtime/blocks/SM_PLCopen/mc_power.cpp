@@ -7,36 +7,33 @@
 namespace axis = ::stride::axis;
 
 void st::SM_PLCopen::MC_Power::body__(::stride::Ctx &ctx__) {
-  const bool failed = Error != 0;
-  Status = 0;
-  Error = 0;
-  ErrorID = axis::error::kNone;
-  Busy = 0;
-  bRegulatorRealState = 0;
-  bDriveStartRealState = 0;
   if (Axis == nullptr) {
+    Status = 0;
+    Busy = 0;
+    bRegulatorRealState = 0;
+    bDriveStartRealState = 0;
     Error = Enable;
     ErrorID = Enable != 0 ? axis::error::kNoAxis : axis::error::kNone;
     return;
   }
-  const bool acts = Enable != 0 && Axis->fTaskCycle > 0.0;
+  axis::AxisRef &ref = *Axis;
+  const bool enabled = Enable != 0;
+  const bool failed = enabled && !(ref.fTaskCycle > 0.0);
+  const bool acts = enabled && !failed;
   if (acts) {
-    Axis->bRegulatorOn = bRegulatorOn;
-    Axis->bDriveStart = bDriveStart;
+    ref.bRegulatorOn = bRegulatorOn;
+    ref.bDriveStart = bDriveStart;
   }
-  if (axis::isVirtual(*Axis))
-    axis::serveVirtual(*Axis, ctx__.cycle);
-  bRegulatorRealState = Axis->bRegulatorRealState;
-  bDriveStartRealState = Axis->bDriveStartRealState;
-  if (Enable == 0)
-    return;
-  if (!(Axis->fTaskCycle > 0.0)) {
-    Error = 1;
-    ErrorID = axis::error::kTaskCycleEmpty;
-    if (!failed)
-      axis::noteError(*Axis, ErrorID);
-    return;
-  }
-  Status = bRegulatorRealState;
-  Busy = bRegulatorRealState != bRegulatorOn || bDriveStartRealState != bDriveStart;
+  if (axis::isVirtual(ref))
+    axis::serveVirtual(ref, ctx__.cycle);
+  const auto regulator = ref.bRegulatorRealState;
+  const auto brake = ref.bDriveStartRealState;
+  bRegulatorRealState = regulator;
+  bDriveStartRealState = brake;
+  Status = acts ? regulator : ::stride::BOOL{0};
+  Busy = acts && (regulator != bRegulatorOn || brake != bDriveStart);
+  if (failed && Error == 0)
+    axis::noteError(ref, axis::error::kTaskCycleEmpty);
+  Error = failed;
+  ErrorID = failed ? axis::error::kTaskCycleEmpty : axis::error::kNone;
 }
