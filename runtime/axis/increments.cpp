@@ -52,6 +52,8 @@ Turn exactTurn(double period, uint64_t denominator, uint64_t numerator) noexcept
 }
 
 double remainder(int64_t rest, int64_t denominator) noexcept {
+  if (rest == 0) // a turn of whole increments
+    return 0.0;
   return static_cast<double>(rest) / static_cast<double>(denominator);
 }
 

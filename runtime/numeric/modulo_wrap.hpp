@@ -10,7 +10,12 @@ namespace stride::numeric {
 inline double wrapPosition(double position, double period) noexcept {
   if (position >= 0.0 && position < period)
     return position;
-  double wrapped = exact::fmod(position, period); // exact
+  // One period away there is nothing to divide; fmod is a call.
+  double wrapped = position;
+  if (position >= period && position <= 2.0 * period)
+    wrapped -= period; // exact: the numbers differ by a factor of two at most
+  else if (!(position < 0.0 && position >= -period))
+    wrapped = exact::fmod(position, period); // exact
   if (wrapped < 0.0)
     wrapped += period;
   return wrapped >= period ? 0.0 : wrapped + 0.0; // -0 becomes 0

@@ -2,6 +2,7 @@
 // way.
 #include "runtime/axis/axis_cycle.hpp"
 #include "runtime/numeric/exact_math.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include "tests/support/fresh.hpp"
 
@@ -39,6 +40,36 @@ TEST(Nearest, IsWhatLlroundGives) {
     EXPECT_EQ(stride::exact::nearest(value), std::llround(value)) << value;
     EXPECT_EQ(stride::exact::nearest(-value), std::llround(-value)) << -value;
   }
+}
+
+/// wrapPosition with fmod everywhere.
+double wrapByDivision(double position, double period) {
+  double wrapped = std::fmod(position, period);
+  if (wrapped < 0.0)
+    wrapped += period;
+  return wrapped >= period ? 0.0 : wrapped + 0.0;
+}
+
+TEST(WrapPosition, IsTheSameWithoutADivision) {
+  std::mt19937_64 engine(4);
+  std::uniform_real_distribution<double> periods(0.5, 1000);
+  std::uniform_real_distribution<double> turns(-3, 3);
+  for (int i = 0; i < 20000; ++i) {
+    const double period = i % 2 == 0 ? 360.0 : periods(engine);
+    std::vector<double> positions = {period * turns(engine), -5e-324, 5e-324};
+    for (int turn = -3; turn <= 3; ++turn)
+      for (const double beside : {-kInf, kInf})
+        for (const double place : {turn * period, std::nextafter(turn * period, beside)})
+          positions.push_back(place);
+    for (const double position : positions) {
+      const double wrapped = stride::numeric::wrapPosition(position, period);
+      ASSERT_EQ(wrapped, wrapByDivision(position, period)) << position << " of " << period;
+      ASSERT_FALSE(std::signbit(wrapped)) << position << " of " << period;
+    }
+  }
+  EXPECT_EQ(stride::numeric::wrapPosition(1.5e308, 1e308), 1.5e308 - 1e308);
+  EXPECT_TRUE(std::isnan(stride::numeric::wrapPosition(kNan, 360)));
+  EXPECT_TRUE(std::isnan(stride::numeric::wrapPosition(kInf, 360)));
 }
 
 TEST(IsZero, IsTheComparison) {
