@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -46,11 +47,7 @@ public:
   void *allocate(size_t size, size_t align) {
     auto at = (reinterpret_cast<uintptr_t>(cursor_) + align - 1) & ~(align - 1);
     if (cursor_ == nullptr || at + size > reinterpret_cast<uintptr_t>(end_)) {
-      const size_t block = size + align > kBlock ? size + align : kBlock;
-      blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(block));
-      bytes_ += block;
-      cursor_ = blocks_.back().get();
-      end_ = cursor_ + block;
+      addBlock(size + align);
       at = (reinterpret_cast<uintptr_t>(cursor_) + align - 1) & ~(align - 1);
     }
     cursor_ = reinterpret_cast<std::byte *>(at + size);
@@ -60,7 +57,7 @@ public:
   /// What lives in `other` lives in this one from now on; `other` is empty.
   void adopt(Arena &&other) {
     blocks_.reserve(blocks_.size() + other.blocks_.size());
-    for (std::unique_ptr<std::byte[]> &block : other.blocks_)
+    for (Block &block : other.blocks_)
       blocks_.push_back(std::move(block));
     bytes_ += other.bytes_;
     other = Arena();
@@ -70,8 +67,15 @@ public:
   [[nodiscard]] size_t bytes() const { return bytes_; }
 
 private:
-  static constexpr size_t kBlock = size_t{64} * 1024;
-  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+  struct Free {
+    void operator()(std::byte *block) const { std::free(block); } // NOLINT: of aligned_alloc()
+  };
+  using Block = std::unique_ptr<std::byte, Free>;
+
+  /// Makes room for an object of that many bytes.
+  void addBlock(size_t least);
+
+  std::vector<Block> blocks_;
   std::byte *cursor_ = nullptr;
   std::byte *end_ = nullptr;
   size_t bytes_ = 0;

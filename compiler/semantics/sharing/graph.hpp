@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -79,6 +80,8 @@ private:
   using Nodes = std::set<PlaceNode *>;
 
   const PouAccess &accessOf(const PouSymbol *pou);
+  /// Those of them that have not been read, by several threads.
+  void readBodies(std::span<const PouSymbol *const> pous);
   void reach(uint32_t task);
   [[nodiscard]] std::vector<const PouSymbol *> implementations(const CallEdge &call) const;
   bool flowOnce(uint32_t task, const PouAccess &access);

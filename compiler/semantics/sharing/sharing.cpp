@@ -4,6 +4,7 @@
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/sharing/graph.hpp"
+#include "compiler/source/workers.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -184,13 +185,26 @@ SharingGraph::SharingGraph(Program &program, const std::vector<TaskEntry> &tasks
 }
 
 const PouAccess &SharingGraph::accessOf(const PouSymbol *pou) {
-  const auto found = read_.find(pou);
-  if (found != read_.end())
+  if (const auto found = read_.find(pou); found != read_.end())
     return found->second;
-  PouAccess access;
-  if (pou->checked && !pou->decl->external)
-    access = readAccess(storage_, pou);
-  return read_.emplace(pou, std::move(access)).first->second;
+  readBodies({&pou, 1});
+  return read_.at(pou);
+}
+
+void SharingGraph::readBodies(std::span<const PouSymbol *const> pous) {
+  std::vector<const PouSymbol *> fresh;
+  size_t bytes = 0;
+  for (const PouSymbol *pou : pous) {
+    if (!read_.try_emplace(pou).second || !pou->checked || pou->decl->external)
+      continue;
+    fresh.push_back(pou);
+    bytes += pou->decl->span.end - pou->decl->span.begin;
+  }
+  const unsigned threads = Workers(program_.settings.jobs).threadsFor(fresh.size(), bytes);
+  std::vector<Storage> others(threads - 1);
+  Workers::each(fresh.size(), threads, [&](size_t i, unsigned thread) {
+    read_.at(fresh[i]) = readAccess(thread == 0 ? storage_ : others[thread - 1], fresh[i]);
+  });
 }
 
 std::vector<const PouSymbol *> SharingGraph::implementations(const CallEdge &call) const {
@@ -219,10 +233,14 @@ void SharingGraph::reach(uint32_t task) {
   };
   for (const PouSymbol *pou : tasks_[task].pous)
     add(pou);
-  for (size_t i = 0; i < all.size(); ++i) {
-    for (const CallEdge &call : accessOf(all[i]).calls) {
-      for (const PouSymbol *pou : implementations(call))
-        add(pou);
+  for (size_t begin = 0; begin < all.size();) {
+    const size_t end = all.size();
+    readBodies(std::span(all).subspan(begin));
+    for (; begin < end; ++begin) {
+      for (const CallEdge &call : accessOf(all[begin]).calls) {
+        for (const PouSymbol *pou : implementations(call))
+          add(pou);
+      }
     }
   }
 }
