@@ -143,6 +143,12 @@ bool writeAt(int folder, const std::string &name, std::string_view text, unsigne
 bool writeFile(const fs::path &path, std::string_view text) { return writeFile(path, text, 0666); }
 
 bool writeFile(const fs::path &path, std::string_view text, unsigned mode) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+    // a device or a pipe takes the text: a file in its place would end it for everybody
+    const int device = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    return device >= 0 && writeAndClose(device, text);
+  }
   std::error_code error;
   const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
   fs::create_directories(parent, error);

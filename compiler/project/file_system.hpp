@@ -26,7 +26,7 @@ inline constexpr unsigned kUserOnly = 0700;
                                                            uintmax_t limit = UINTMAX_MAX);
 
 /// Replaces the file at once (written beside it, then renamed), making its folder; false on failure
-/// (errno).
+/// (errno). A device or a pipe is never replaced, it is given the text.
 [[nodiscard]] bool writeFile(const std::filesystem::path &path, std::string_view text);
 
 [[nodiscard]] bool writeFile(const std::filesystem::path &path, std::string_view text,

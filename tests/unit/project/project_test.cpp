@@ -3,6 +3,7 @@
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/library_index.hpp"
 
+#include <cerrno>
 #include <gmock/gmock-more-matchers.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -45,6 +46,19 @@ protected:
 };
 
 constexpr const char *kProgram = "PROGRAM PLC_PRG\nEND_PROGRAM\n";
+
+// Through a link, so that a fault costs a link and not the device.
+TEST_F(ProjectTest, WritesIntoADeviceInsteadOfReplacingIt) {
+  const fs::path path = folder_ / "device";
+  fs::create_symlink("/dev/full", path);
+  EXPECT_FALSE(writeFile(path, "text"));
+  EXPECT_EQ(errno, ENOSPC);
+  EXPECT_TRUE(fs::is_character_file(path));
+  fs::remove(path);
+  fs::create_symlink("/dev/null", path);
+  EXPECT_TRUE(writeFile(path, "text"));
+  EXPECT_TRUE(fs::is_character_file(path));
+}
 
 TEST_F(ProjectTest, ReadsAFolderSortedAndSkipsWhatIsNotItsOwn) {
   write("stride.toml", "");
