@@ -71,7 +71,7 @@ public:
     return ownRounds(loop) <= kShortLoop;
   }
 
-  static constexpr int64_t kShortLoop = 1'000'000;
+  static constexpr int64_t kShortLoop = int64_t{1} << 21;
 
   /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing
   /// else can change it; `countsAlone` says that this is known.
@@ -127,6 +127,10 @@ private:
   [[nodiscard]] WhileFacts whileFacts(const ast::WhileStmt *loop, ast::Block before);
   /// The values that the expression can have here, or nothing.
   [[nodiscard]] std::optional<Interval> interval(const ast::Expr *e, unsigned depth = 0) const;
+  /// The values of `e - variable`, where `e` is a sum that begins with the variable and none of its
+  /// parts can wrap.
+  [[nodiscard]] std::optional<Interval> distance(const ast::Expr *e,
+                                                 const VarSymbol *variable) const;
   [[nodiscard]] std::optional<Interval> intervalOf(const ast::BinaryExpr *e, unsigned depth) const;
 
   bool checks_;

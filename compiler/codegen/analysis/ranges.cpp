@@ -161,8 +161,14 @@ bool canContinue(Block body) {
   });
 }
 
-/// From 1 to any number of 31 bits by factors of 2.
-constexpr int64_t kDoublings = 32;
+/// How often a loop runs at most that multiplies or divides by `by` (2 or more) while its variable
+/// is in the range (of numbers above 0).
+int64_t roundsByFactors(int64_t low, int64_t high, int64_t by) {
+  int64_t rounds = 1;
+  for (; low <= high / by; low *= by)
+    ++rounds;
+  return rounds;
+}
 
 } // namespace
 
@@ -227,7 +233,8 @@ Analysis::WhileFacts Analysis::whileFacts(const WhileStmt *loop, Block before) {
   if (step.op == BinaryOp::Multiply || step.op == BinaryOp::Divide) {
     const bool grows =
         by->low >= 2 && range.low >= 1 && (!up || fits(type, range.low, range.high * by->high));
-    return grows ? WhileFacts{range, kDoublings} : WhileFacts{};
+    return grows ? WhileFacts{range, roundsByFactors(range.low, range.high, by->low)}
+                 : WhileFacts{};
   }
   if (by->low < 0 || !(up ? fits(type, range.low, range.high + by->high)
                           : fits(type, range.low - by->high, range.high)))
@@ -240,7 +247,31 @@ int64_t Analysis::roundsAtMost(const ForStmt *loop) const {
   const auto to = from ? interval(loop->to) : std::nullopt;
   if (!to || (loop->by != nullptr && loop->by->constant == nullptr))
     return kHuge;
+  // Nothing wraps.
+  if (const VarSymbol *first = namedVariable(loop->from); first != nullptr)
+    if (const auto beyond = distance(loop->to, first))
+      return std::max(std::max(beyond->high, -beyond->low), int64_t{0}) + 1;
   return std::max(to->high - from->low, from->high - to->low) + 1;
+}
+
+std::optional<Analysis::Interval> Analysis::distance(const Expr *e,
+                                                     const VarSymbol *variable) const {
+  Interval sum{0, 0};
+  for (unsigned depth = 0; depth < kMaxDepth && e->constant == nullptr; ++depth) {
+    if (e->kind == ExprKind::Name && namedVariable(e) == variable)
+      return sum;
+    const auto *binary = e->kind == ExprKind::Binary ? as<BinaryExpr>(e) : nullptr;
+    if (binary == nullptr || (binary->op != BinaryOp::Add && binary->op != BinaryOp::Subtract))
+      break;
+    const auto right = interval(binary->right);
+    if (!right)
+      break;
+    const bool adds = binary->op == BinaryOp::Add;
+    sum = {sum.low + (adds ? right->low : -right->high),
+           sum.high + (adds ? right->high : -right->low)};
+    e = binary->left;
+  }
+  return std::nullopt;
 }
 
 std::optional<Analysis::Interval> Analysis::interval(const Expr *e, unsigned depth) const {

@@ -133,8 +133,8 @@ struct Counter {
 /// While the body is written the range of the variable may be known.
 class KnownRange {
 public:
-  KnownRange(EmitContext &cx, const Counter &counter)
-      : analysis_(cx.run.analysis), counted_(cx.modes.loops.uncounted, 1) {
+  KnownRange(EmitContext &cx, const Counter &counter, int64_t uncounted = 1)
+      : analysis_(cx.run.analysis), counted_(cx.modes.loops.uncounted, uncounted) {
     analysis_.enterLoop(counter.stmt, counter.countsAlone);
   }
   ~KnownRange() { analysis_.leaveLoop(); }
@@ -333,6 +333,14 @@ void emitGeneral(EmitContext &cx, const Counter &counter) {
   emitLoopBody(cx, s->body, !counter.isShort);
 }
 
+/// So many rounds do the loop and those around it make at most, within one that is not counted and
+/// so only computes; 1: this one has to be counted.
+int64_t uncountedRounds(const EmitContext &cx, const ForStmt *s) {
+  const int64_t around = cx.modes.loops.uncounted;
+  const int64_t own = around == 1 ? 0 : cx.run.analysis.roundsAtMost(s);
+  return own > 0 && own <= Analysis::kShortLoop / around ? own * around : 1;
+}
+
 /// Bounds that are known at run time, of a variable with so few bits that the loop is short
 /// whatever they are: all rounds are taken from the loop budget at once.
 void emitFewBits(EmitContext &cx, const Counter &counter) {
@@ -344,15 +352,20 @@ void emitFewBits(EmitContext &cx, const Counter &counter) {
   cx.out << " const ::stride::DINT " << stop << " = ";
   emitValueAs(cx, s->to, counter.type);
   cx.out << (up ? " + 1" : " - 1") << "; ::stride::DINT " << at << " = " << counter.variable
-         << "; budget__.refill((budget__.left -= ::stride::roundsTo(" << at << ", " << stop << ", "
-         << counter.step << ")) < 0, " << cx.ctx() << ", ";
-  cx.position(s->span);
-  cx.out << "); for (; " << counter.variable << " = static_cast<" << cx.type(counter.type) << ">("
+         << "; ";
+  const int64_t uncounted = uncountedRounds(cx, s);
+  if (uncounted == 1) {
+    cx.uses.budget = true;
+    cx.out << "budget__.refill((budget__.left -= ::stride::roundsTo(" << at << ", " << stop << ", "
+           << counter.step << ")) < 0, " << cx.ctx() << ", ";
+    cx.position(s->span);
+    cx.out << "); ";
+  }
+  cx.out << "for (; " << counter.variable << " = static_cast<" << cx.type(counter.type) << ">("
          << at << "), " << at << (up ? " < " : " > ") << stop << "; " << at
          << " += " << counter.step << ") {";
   cx.end();
-  cx.uses.budget = true;
-  const KnownRange range(cx, counter);
+  const KnownRange range(cx, counter, uncounted);
   emitLoopBody(cx, s->body, false);
 }
 

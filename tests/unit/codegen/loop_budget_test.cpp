@@ -80,13 +80,13 @@ constexpr Loop kLoops[] = {
      "i := 100; WHILE i >= 0 AND counted < 20 DO counted := counted + 1; i := i / 2; END_WHILE", 20,
      21, 21},
     {"WhileJustShort",
-     "i := 1; WHILE i <= 1000 DO k := 1; WHILE k <= 1000 AND counted < 5 DO "
+     "i := 1; WHILE i <= 2048 DO k := 1; WHILE k <= 1024 AND counted < 5 DO "
      "counted := counted + 1; k := k + 1; END_WHILE i := i + 1; END_WHILE",
      5, 0, 0},
     {"WhileJustTooLong",
-     "i := 1; WHILE i <= 1001 DO k := 1; WHILE k <= 1000 AND counted < 5 DO "
+     "i := 1; WHILE i <= 2049 DO k := 1; WHILE k <= 1024 AND counted < 5 DO "
      "counted := counted + 1; k := k + 1; END_WHILE i := i + 1; END_WHILE",
-     5, 1006, 1006},
+     5, 2054, 2054},
     {"NestedConstant", "FOR i := 1 TO 6 DO FOR k := 1 TO 25 DO Count(); END_FOR END_FOR", 150, 156,
      155, 156},
     {"InACall", "FOR i := 1 TO 10 DO Inner(); END_FOR", 300, 310, 300},
