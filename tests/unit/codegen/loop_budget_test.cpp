@@ -87,6 +87,10 @@ constexpr Loop kLoops[] = {
      "i := 1; WHILE i <= 2049 DO k := 1; WHILE k <= 1024 AND counted < 5 DO "
      "counted := counted + 1; k := k + 1; END_WHILE i := i + 1; END_WHILE",
      5, 2054, 2054},
+    {"ForInAShortWhile",
+     "i := 1; WHILE i <= 8 DO FOR k := i TO i + 3 DO counted := counted + 1; END_FOR i := i * 2; "
+     "END_WHILE",
+     16, 0, 0},
     {"NestedConstant", "FOR i := 1 TO 6 DO FOR k := 1 TO 25 DO Count(); END_FOR END_FOR", 150, 156,
      155, 156},
     {"InACall", "FOR i := 1 TO 10 DO Inner(); END_FOR", 300, 310, 300},
