@@ -1,5 +1,6 @@
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/file_system.hpp"
+#include "compiler/project/job_pool.hpp"
 #include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
@@ -100,10 +101,11 @@ int newCommand(const std::string &name, const std::string &projectTemplate) {
         !writeFile(path, withName(file.text, last)))
       return showError(Code::CannotWrite,
                        fmt::format("`{}` cannot be written: {}", path.string(), lastError()));
+  const std::string typed = (folder.native().starts_with('-') ? "./" : "") + folder.string();
   for (const Template &each : kTemplates)
     if (each.name == projectTemplate)
       std::fputs(fmt::format("Created {}. Try:\n\n    cd {}\n    {}\n", folder.string(),
-                             folder.string(), each.hint)
+                             shellQuoted({typed}), each.hint)
                      .c_str(),
                  stdout);
   return 0;

@@ -32,8 +32,13 @@ void Project::load(const fs::path &given) {
   std::error_code error;
   const fs::file_status status = fs::status(given, error);
   if (!fs::exists(status) && !program_.sources.isUnsaved(given)) {
-    program_.diagnostics.report(Code::PathNotFound, {},
-                                fmt::format("there is no file or folder `{}`", given.string()));
+    if (status.type() == fs::file_type::not_found)
+      program_.diagnostics.report(Code::PathNotFound, {},
+                                  fmt::format("there is no file or folder `{}`", given.string()));
+    else // a link that leads to itself, a folder that must not be searched
+      program_.diagnostics.report(
+          Code::UnreadableFile, {},
+          fmt::format("`{}` cannot be read: {}", given.string(), error.message()));
     return;
   }
   if (fs::is_directory(status) || given.filename() == kManifest) {

@@ -192,6 +192,11 @@ TEST_F(Cli, EveryTemplateBuilds) {
   EXPECT_EQ(stride({"new", ".."}).exitCode, 1);
 }
 
+TEST_F(Cli, NewSaysHowAShellGetsThere) {
+  EXPECT_THAT(stride({"new", "wide mill"}).out, HasSubstr("cd 'wide mill'\n"));
+  EXPECT_THAT(stride({"new", "--", "-mill"}).out, HasSubstr("cd ./-mill\n"));
+}
+
 TEST_F(Cli, BuildPutsTheApplicationWhereItIsTold) {
   write("a.st", kCounter);
   succeed({"build", "a.st", "-o", "out/x.so"});

@@ -60,6 +60,12 @@ TEST_F(ProjectTest, WritesIntoADeviceInsteadOfReplacingIt) {
   EXPECT_TRUE(fs::is_character_file(path));
 }
 
+TEST_F(ProjectTest, SaysWhyALinkToItselfCannotBeRead) {
+  fs::create_symlink("loop.st", folder_ / "loop.st");
+  EXPECT_THAT(open(folder_ / "loop.st"), ElementsAre(codeName(Code::UnreadableFile)));
+  EXPECT_THAT(open(folder_ / "none.st"), ElementsAre(codeName(Code::PathNotFound)));
+}
+
 TEST_F(ProjectTest, ReadsAFolderSortedAndSkipsWhatIsNotItsOwn) {
   write("stride.toml", "");
   write("b.st", kProgram);
