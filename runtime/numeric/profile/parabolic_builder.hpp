@@ -84,6 +84,13 @@ public:
   /// The axis is at rest now, or moves at a constant velocity: without the rounding of the phases.
   void settle(double velocity) noexcept { state_ = {0.0, velocity, 0.0}; }
 
+  /// Turns around into the direction `sign`, and stands in that instant.
+  void turn(const Turn &turn, double sign) noexcept {
+    for (const Phase &phase : turn.phases)
+      forward(phase, sign);
+    state_ = {0.0, 0.0, sign * turn.acceleration};
+  }
+
   void forward(const TurningChange &change, double sign) noexcept {
     if (change.turns) {
       for (const Phase &phase : change.lead)

@@ -7,6 +7,19 @@
 
 namespace stride::motion::parabolic {
 
+/// The soonest turn from velocities below 0 to standstill, with an acceleration there that goes on
+/// into positive velocities, in scaled units: at every velocity the acceleration is the greatest
+/// one that there can be.
+struct Turn {
+  Phase phases[3];     ///< Where a duration is 0, there is none.
+  double way;          ///< From the start to where the axis stands.
+  double acceleration; ///< There.
+
+  /// From a velocity that is negative, or that the acceleration `from` makes negative. While it is,
+  /// `rates.falling` holds, then `rates.rising`; and no velocity above `top` follows from the turn.
+  Turn(double velocity, double from, const Rates &rates, double top) noexcept;
+};
+
 /// The fastest change to a velocity without acceleration, through standstill where it lies between.
 /// `rates` are those of positive velocities; of negative ones they are the other way round. In
 /// scaled units.
