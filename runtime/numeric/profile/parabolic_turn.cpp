@@ -62,10 +62,15 @@ double timeToSummit(const Task &task, const State &from, const Phase &phase) noe
     const double rate = state.acceleration;
     return -(settled + rate * rate + 0.5 * rate * changeFrom(state, task).peak());
   };
-  if (!(settled < 0.0) || !(shrinks(0.0) < 0.0))
+  const double stronger = exact::larger(task.rates.rising, task.rates.falling);
+  if (!(settled < stronger * stronger * (1.0 / 16.0)) || !(shrinks(0.0) < 0.0))
     return 0.0;
   const double last = exact::smaller(-from.acceleration / jerk, phase.duration);
-  return shrinks(last) >= 0.0 ? bracketedRoot(shrinks, 0.0, last) : 0.0;
+  constexpr int kParts = 16; // it may grow again before the acceleration is 0
+  for (int i = 1; i <= kParts; ++i)
+    if (shrinks(last * i / kParts) >= 0.0)
+      return bracketedRoot(shrinks, last * (i - 1) / kParts, last * i / kParts);
+  return 0.0;
 }
 
 void add(TurningRoute &route, const Phase &phase, State &state) noexcept {
