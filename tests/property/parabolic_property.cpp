@@ -322,6 +322,31 @@ TEST(ParabolicProperty, TurnsTakeNoLongerThanWithTheWeakerRate) {
   EXPECT_GT(turned, casesOf(20000) / 20);
 }
 
+// The same of motions that end with a velocity. (These once rested first.)
+TEST(ParabolicProperty, TurnsToAVelocityTakeNoLongerThanWithTheWeakerRate) {
+  Random random(10);
+  int turned = 0;
+  for (int i = 0; i < casesOf(20000); ++i) {
+    Problem p = unlikeProblem(random);
+    p.endVelocity = random.uniform(-1, 1) * p.limits.velocity;
+    const double weaker = std::min(p.limits.acceleration, p.limits.deceleration);
+    p.start.acceleration = std::clamp(p.start.acceleration, -weaker, weaker);
+    const double swing = p.start.acceleration * p.start.acceleration / (2 * p.limits.jerk);
+    if (std::fabs(p.start.velocity) + swing > p.limits.velocity)
+      continue;
+    Profile profile;
+    ASSERT_EQ(planParabolic(profile, p.start, p.target, p.endVelocity, p.limits), PlanError::None)
+        << p;
+    ASSERT_EQ(wrong(profile, p), "") << p;
+    const double places = std::max(std::fabs(p.start.position), std::fabs(p.target)) +
+                          profile.duration * (std::fabs(p.start.velocity) + swing);
+    const double tick = 4 * std::cbrt(1e-14 * places / p.limits.jerk);
+    ASSERT_LE(profile.duration, durationWith(p, weaker) * (1 + 1e-9) + tick) << p;
+    turned += p.start.velocity * p.endVelocity < 0 ? 1 : 0;
+  }
+  EXPECT_GT(turned, casesOf(20000) / 20);
+}
+
 // Hardly any difference of the rates makes hardly any difference of the time.
 TEST(ParabolicProperty, TurnsAreThoseOfEqualRatesWhereTheyHardlyDiffer) {
   Random random(9);

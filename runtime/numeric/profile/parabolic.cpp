@@ -84,35 +84,6 @@ PlanError result(bool representable) noexcept {
   return representable ? PlanError::None : PlanError::Unrepresentable;
 }
 
-/// The axis stands; goes on to `target`, which is `distance` away, with `endVelocity` there.
-template <class Units>
-void moveFromRest(Builder<Units> &builder, double distance, double target, double endVelocity,
-                  const Limits &limits, double noise) noexcept {
-  const double side = endVelocity != 0.0 ? exact::signOf(endVelocity) : exact::signOf(distance);
-  const double speed = side * endVelocity;
-  const double ahead = side * distance;
-  Task task = {0.0, 0.0, ahead, speed, limits.velocity, 0.0, limits.ahead(), noise};
-  Route route;
-  if (speed == 0.0) {
-    (void)findRoute(route, task);
-    builder.route(route, side, target, 0.0);
-    return;
-  }
-  const VelocityChange runUp(0.0, 0.0, speed, limits.ahead());
-  const double runUpWay = runUp.distance(0.0, 0.0, speed);
-  if (ahead >= runUpWay - noise) {
-    (void)findRoute(route, task);
-    builder.route(route, side, target, endVelocity);
-    return;
-  }
-  // Back to where the run-up must begin.
-  task.distance = runUpWay - ahead;
-  task.endVelocity = 0.0;
-  (void)findRoute(route, task);
-  builder.route(route, -side, target - builder.length(side * runUpWay), 0.0);
-  builder.arrive(runUp, side, target, endVelocity);
-}
-
 /// The motion of `task` to rest, to which the axis must turn around into the direction `side`.
 /// False if there is none.
 template <class Units>
@@ -140,37 +111,42 @@ bool moveByTurn(Builder<Units> &builder, const Task &task, double side, double t
   return true;
 }
 
-/// The motion of `task`, whose velocity is not negative and now lies in the direction `side`, where
-/// it must change its sign. Apart, because the other motions are quicker without its code.
+/// The motion of `task`, whose velocity lies in the direction `side`, where it must change its
+/// sign. Apart, because the other motions are quicker without its code.
 template <class Units>
 [[gnu::noinline]] void moveAndTurn(Builder<Units> &builder, const Task &task, double side,
-                                   double target, double endVelocity,
-                                   const Limits &limits) noexcept {
-  const bool goesOn = settledVelocity(task.velocity, task.acceleration, limits.jerk) >= 0.0;
-  if (task.endVelocity == 0.0) {
+                                   double target, double endVelocity) noexcept {
+  if (task.endVelocity == 0.0) { // by formulas
     const Task back = {-task.velocity, -task.acceleration, -task.distance, 0.0, task.top, 0.0,
                        task.rates,     task.noise};
+    const bool goesOn = settledVelocity(task.velocity, task.acceleration, task.rates.jerk) >= 0.0;
     if (moveByTurn(builder, back, -side, target) ||
         (!goesOn && moveByTurn(builder, task, side, target))) // it turns twice
       return;
-  } else if (goesOn && task.endVelocity < 0.0) { // first as far as the run-up needs
-    const VelocityChange runUp(0.0, 0.0, -task.endVelocity, limits.ahead());
-    const double runUpWay = runUp.distance(0.0, 0.0, -task.endVelocity);
-    Task ahead = task;
-    ahead.distance += runUpWay;
-    ahead.endVelocity = 0.0;
-    Route route;
-    if (findRoute(route, ahead)) {
-      builder.route(route, side, target + builder.length(side * runUpWay), 0.0);
-      builder.arrive(runUp, -side, target, endVelocity);
-      return;
-    }
   }
-  const VelocityChange stop(task.velocity, task.acceleration, 0.0, limits.stopping());
-  builder.forward(stop, side);
-  builder.settle(0.0);
-  const double missing = task.distance - stop.distance(task.velocity, task.acceleration, 0.0);
-  moveFromRest(builder, side * missing, target, endVelocity, limits, task.noise);
+  Task both = task;
+  both.bottom = -task.top;
+  TurningRoute route;
+  findTurningRoute(route, both);
+  builder.route(route, side, target, endVelocity);
+}
+
+/// The axis stands; goes on to `target`, which is `distance` away, with `endVelocity` there.
+template <class Units>
+void moveFromRest(Builder<Units> &builder, double distance, double target, double endVelocity,
+                  const Limits &limits, double noise) noexcept {
+  const double side = endVelocity != 0.0 ? exact::signOf(endVelocity) : exact::signOf(distance);
+  const double speed = side * endVelocity;
+  const double ahead = side * distance;
+  const Task task = {0.0, 0.0, ahead, speed, limits.velocity, 0.0, limits.ahead(), noise};
+  const VelocityChange runUp(0.0, 0.0, speed, limits.ahead());
+  if (speed == 0.0 || ahead >= runUp.distance(0.0, 0.0, speed) - noise) {
+    Route route;
+    (void)findRoute(route, task);
+    builder.route(route, side, target, endVelocity);
+    return;
+  }
+  moveAndTurn(builder, task, side, target, endVelocity); // back to where the run-up must begin
 }
 
 /// The motion between different rates for rising and falling: they hold for the magnitude of the
@@ -192,7 +168,7 @@ void moveOnOneSide(Builder<Units> &builder, const State &state, double distance,
       return;
     }
   }
-  moveAndTurn(builder, task, side, target, endVelocity, limits);
+  moveAndTurn(builder, task, side, target, endVelocity);
 }
 
 /// planParabolic where there is something to do and all can be represented.
@@ -273,15 +249,10 @@ PlanError planParabolicVelocity(Profile &profile, const State &start, double vel
                                                   : exact::signOf(last);
   const double speed = side * state.velocity;
   const double rate = side * state.acceleration;
-  if (scaled.acceleration == scaled.deceleration ||
-      (settledVelocity(speed, rate, scaled.jerk) >= 0.0 && side * last >= 0.0)) {
+  if (scaled.acceleration == scaled.deceleration)
     builder.forward(VelocityChange(speed, rate, side * last, scaled.ahead()), side);
-  } else {
-    builder.forward(VelocityChange(speed, rate, 0.0, scaled.stopping()), side);
-    builder.settle(0.0);
-    const double to = exact::signOf(last);
-    builder.forward(VelocityChange(0.0, 0.0, to * last, scaled.ahead()), to);
-  }
+  else
+    builder.forward(TurningChange(speed, rate, side * last, scaled.ahead()), side);
   return result(builder.finish(start.position, velocity));
 }
 
@@ -312,15 +283,13 @@ double reachableByParabola(const State &start, double target, double wanted,
   velocity *= sign;
   acceleration *= sign;
   way *= sign;
-  double settled = settledVelocity(velocity, acceleration, scaled.jerk);
-  const bool turns = velocity < 0.0 || settled < 0.0;
-  if (turns && scaled.acceleration != scaled.deceleration) { // it stops first
-    way -= sign * halt;
-    velocity = acceleration = settled = 0.0;
-  }
+  const double settled = settledVelocity(velocity, acceleration, scaled.jerk);
+  const bool alike = scaled.acceleration == scaled.deceleration;
   const auto beyond = [&](double to) noexcept {
-    return VelocityChange(velocity, acceleration, to, scaled.ahead())
-               .distance(velocity, acceleration, to) -
+    return (alike ? VelocityChange(velocity, acceleration, to, scaled.ahead())
+                        .distance(velocity, acceleration, to)
+                  : TurningChange(velocity, acceleration, to, scaled.ahead())
+                        .distance(velocity, acceleration, to)) -
            way;
   };
   if (!(beyond(speed) > 0.0))

@@ -20,10 +20,8 @@ struct JerkLimits {
 /// where it arrives with `endVelocity` and without acceleration. The profile ends exactly there,
 /// bit for bit. An end velocity above the limit exceeds it only in the final run-up.
 ///
-/// It is the fastest one if acceleration and deceleration are equal, or the velocity need not
-/// change its sign, or it ends at rest; otherwise the axis first stops with the deceleration. What
-/// is beyond a limit at the start returns to it with the jerk (an acceleration) or the deceleration
-/// (a velocity).
+/// It is the fastest one, where the state at the start can keep the limits. What is beyond a limit
+/// there returns to it with the jerk (an acceleration) or the deceleration (a velocity).
 PlanError planParabolic(Profile &profile, const State &start, double target, double endVelocity,
                         const JerkLimits &limits) noexcept;
 

@@ -91,6 +91,26 @@ public:
     state_ = {0.0, 0.0, sign * turn.acceleration};
   }
 
+  void forward(const TurningChange &change, double sign) noexcept {
+    if (change.turns) {
+      for (const Phase &phase : change.lead)
+        forward(phase, sign);
+      state_ = {0.0, 0.0, sign * change.acceleration};
+    }
+    forward(change.rest, sign);
+  }
+
+  void route(const TurningRoute &route, double side, double target, double endVelocity) noexcept {
+    const double sign = side * route.sign;
+    for (int i = 0; i < route.headCount; ++i)
+      forward(route.head[i], sign);
+    if (route.cruise > 0.0) {
+      settle(sign * route.cruiseVelocity);
+      forward({route.cruise, 0.0, 0.0}, sign);
+    }
+    arrive(route.tail, sign, target, endVelocity);
+  }
+
   void route(const Route &route, double side, double target, double endVelocity) noexcept {
     const double sign = side * route.sign;
     for (int i = 0; i < route.headCount; ++i) {
@@ -122,6 +142,24 @@ public:
     approach(last, sign, target, end);
     place_ = target;
     settle(endVelocity);
+  }
+
+  /// The same, through standstill.
+  void arrive(const TurningChange &change, double sign, double target,
+              double endVelocity) noexcept {
+    if (change.turns) {
+      const double way = change.rest.distance(0.0, change.acceleration, sign * endVelocity);
+      State state = {-sign * way, 0.0, sign * change.acceleration};
+      State ends[3];
+      for (int i = 2; i >= 0; --i) {
+        state.acceleration = sign * change.lead[i].acceleration;
+        ends[i] = state;
+        state = numeric::evaluateCubic(state, sign * change.lead[i].jerk, -change.lead[i].duration);
+      }
+      for (int i = 0; i < 3; ++i)
+        approach(change.lead[i], sign, target, ends[i]);
+    }
+    arrive(change.rest, sign, target, endVelocity);
   }
 
   /// Ends the profile with this velocity, and where the axis is. False if a number of the profile

@@ -1,5 +1,5 @@
-// How a jerk-limited motion turns around where the rates of both directions differ: private to the
-// planner.
+// Jerk-limited motions whose velocity changes its sign where acceleration and deceleration differ:
+// private to the planner.
 #ifndef STRIDE_RUNTIME_NUMERIC_PROFILE_PARABOLIC_TURN_HPP
 #define STRIDE_RUNTIME_NUMERIC_PROFILE_PARABOLIC_TURN_HPP
 
@@ -19,6 +19,54 @@ struct Turn {
   /// `rates.falling` holds, then `rates.rising`; and no velocity above `top` follows from the turn.
   Turn(double velocity, double from, const Rates &rates, double top) noexcept;
 };
+
+/// The fastest change to a velocity without acceleration, through standstill where it lies between.
+/// `rates` are those of positive velocities; of negative ones they are the other way round. In
+/// scaled units.
+struct TurningChange {
+  Phase lead[3];       ///< To standstill, which the axis passes; durations of 0 if it does not.
+  VelocityChange rest; ///< From there, else all of the change.
+  double acceleration = 0.0; ///< At standstill.
+  bool turns = false;        ///< Whether there is a `lead`.
+
+  TurningChange() noexcept {} // `lead` is assigned where it is used
+  TurningChange(double velocity, double from, double to, const Rates &rates) noexcept;
+
+  /// The way from the beginning to the end, where the velocity is `to`.
+  [[nodiscard]] double distance(double velocity, double from, double to) const noexcept;
+
+  [[nodiscard]] double duration() const noexcept {
+    const double passing = turns ? lead[0].duration + lead[1].duration + lead[2].duration : 0.0;
+    return passing + rest.duration();
+  }
+
+  /// The greatest acceleration towards the end velocity before standstill, or, without a lead, of
+  /// all of the change.
+  [[nodiscard]] double peak() const noexcept {
+    return exact::fabs(turns ? lead[0].acceleration : rest.phases[0].acceleration);
+  }
+
+private:
+  void change(double sign, double velocity, double from, double to, const Rates &rates) noexcept;
+};
+
+/// How to reach a place with a velocity, through standstill.
+struct TurningRoute {
+  static constexpr int kMost = 7; ///< Of a change, and a part of a phase.
+
+  Phase head[kMost];           ///< What the axis does first; nothing but the first `headCount`.
+  int headCount = 0;           ///< Valid entries of `head`.
+  double cruise = 0.0;         ///< Time at `cruiseVelocity`, 0 for none.
+  double cruiseVelocity = 0.0; ///< Mirrored as the phases are.
+  double sign = 1.0;           ///< -1: all of it is mirrored.
+  TurningChange tail;          ///< To the end velocity; ends at the target.
+
+  TurningRoute() noexcept {} // `head` is assigned
+};
+
+/// Finds the fastest way; `rates` of the task are those of positive velocities, and `top` is the
+/// greatest magnitude of the velocity, above 0.
+void findTurningRoute(TurningRoute &route, const Task &task) noexcept;
 
 } // namespace stride::motion::parabolic
 

@@ -196,7 +196,7 @@ TEST(Planner, SameBitsEverywhere) {
       mix(state.acceleration);
     }
   }
-  EXPECT_EQ(hash, 4743745771967336965U);
+  EXPECT_EQ(hash, 5994170258231755693U);
 }
 
 } // namespace
