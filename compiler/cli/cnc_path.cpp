@@ -16,6 +16,9 @@ namespace stc::cli {
 
 namespace {
 
+/// Of a motion, at most: eight hours at 1 ms, which are 2 GB of table.
+constexpr double kMostCycles = 3e7;
+
 using namespace stride::cnc;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -173,6 +176,25 @@ bool isDrivable(const CncPath &path, const CncProgram &program, Diagnostics &dia
   return false;
 }
 
+/// Whether the motion of the path can end within kMostCycles, from its velocities alone; says if
+/// not. A table or a picture of it would take all memory first.
+bool isShortEnough(const CncPath &path, const CncProgram &program, const CncMotionOptions &options,
+                   Diagnostics &diagnostics) {
+  double time = 0;
+  for (const PathObject &object : path.objects)
+    if (moves(object) && object.length > 0)
+      time += object.length / object.velocity;
+  const double cycles = time / (options.feed * options.cycle);
+  if (cycles <= kMostCycles)
+    return true;
+  diagnostics
+      .report(Code::CncSentence, program.span,
+              fmt::format("the path takes {:.7g} cycles at least: more than {:.0f}", cycles,
+                          kMostCycles))
+      .help("is a coordinate wrong, or a velocity? --cycle makes cycles longer");
+  return false;
+}
+
 stride::path::LawKind lawOf(const std::string &mode) {
   using stride::path::LawKind;
   return mode == "quadratic" ? LawKind::Jerk
@@ -234,7 +256,8 @@ std::optional<CncPath> cncPathOf(const CncProgram &program, const CncMotionOptio
     return std::nullopt;
   chain.finish();
   checkCorners(path, options);
-  if (!isDrivable(path, program, diagnostics))
+  if (!isDrivable(path, program, diagnostics) ||
+      !isShortEnough(path, program, options, diagnostics))
     return std::nullopt;
   return path;
 }

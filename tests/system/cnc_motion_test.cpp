@@ -107,6 +107,20 @@ TEST_F(CncMotion, BlendsCornersWithinTheTolerance) {
   EXPECT_EQ(round.columns.at("Y").back(), 20);
 }
 
+/// Three words that differ in a digit: the last one would be driven until memory is used up.
+TEST_F(CncMotion, RefusesWhatTakesTooLong) {
+  const std::string head = "% long\nG1 F10 E400 E-400 X";
+  const auto words = HasSubstr("the path takes 3.1e+07 cycles at least: more than 30000000");
+  write(head + "310000\n");
+  const ProcessResult longer = cnc({"run", "a.cnc"});
+  EXPECT_EQ(longer.exitCode, 1);
+  EXPECT_THAT(longer.err, AllOf(HasSubstr("SE0882"), words));
+  EXPECT_THAT(cnc({"plot", "a.cnc"}).err, words);
+  EXPECT_EQ(cnc({"run", "a.cnc", "--cycle", "1s"}).exitCode, 0) << "31000 cycles";
+  write(head + "31000000000000000000\n");
+  EXPECT_EQ(cnc({"run", "a.cnc"}).exitCode, 1);
+}
+
 TEST_F(CncMotion, MergesLines) {
   std::string text = "% circle\nG17\nG1 X20 F50 E400 E-400\n";
   for (int i = 1; i <= 360; ++i)
