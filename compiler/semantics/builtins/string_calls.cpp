@@ -41,6 +41,11 @@ static void concatInPairs(Context &c, CallExpr *expr) {
   expr->arguments = c.arena.copy(std::vector<Argument>{joined, all.back()});
 }
 
+/// A number of characters of that type may be so large that a DINT of it would be below 0.
+static bool holdsMoreThanDint(const Type *type) {
+  return isInteger(type) && (bitWidth(type) > 32 || underlying(type)->kind == TypeKind::Udint);
+}
+
 /// Whether the arguments are texts and numbers of characters; what is not has been reported.
 static bool areTexts(Context &c, CallExpr *expr, size_t texts, bool characterFirst) {
   // CODESYS has WLEN, WLEFT … for WSTRING only.
@@ -58,7 +63,7 @@ static bool areTexts(Context &c, CallExpr *expr, size_t texts, bool characterFir
     if (i >= texts) {
       if (!isInteger(kind) && value->type->kind != TypeKind::AnyInteger)
         return refuse(i, "an integer");
-      setTarget(value, elementaryType(TypeKind::Dint));
+      setTarget(value, elementaryType(holdsMoreThanDint(kind) ? TypeKind::Lint : TypeKind::Dint));
       continue;
     }
     if (isCharacter(kind) && (i > 0 || characterFirst))
