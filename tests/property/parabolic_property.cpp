@@ -448,6 +448,27 @@ TEST(ParabolicProperty, AllScales) {
   }
 }
 
+TEST(ParabolicProperty, ManyScalesToAVelocity) {
+  Random random(37);
+  for (int i = 0; i < 50000; ++i) {
+    const auto any = [&] { return random.magnitude(-2.5, 2.5); };
+    Problem p{};
+    p.start.position = random.chance(0.3) ? 0 : random.sign() * any();
+    p.target = random.chance(0.1) ? p.start.position : random.sign() * any();
+    p.start.velocity = random.chance(0.3) ? 0 : random.sign() * any();
+    p.limits = {any(), any(), any(), any()};
+    p.endVelocity = random.sign() * random.magnitude(-2.5, 0) * p.limits.velocity;
+    if (random.chance(0.7))
+      p.start.acceleration = random.sign() * random.magnitude(-2.5, 1) *
+                             std::max(p.limits.acceleration, p.limits.deceleration);
+    Profile profile;
+    ASSERT_EQ(planParabolic(profile, p.start, p.target, p.endVelocity, p.limits), PlanError::None)
+        << p;
+    ASSERT_EQ(profile.end.position, p.target) << p;
+    ASSERT_EQ(broken(profile, p), "") << i << ": " << p;
+  }
+}
+
 TEST(ParabolicProperty, AnyNumberIsPlannedOrRefused) {
   Random random(13);
   int planned = 0;
