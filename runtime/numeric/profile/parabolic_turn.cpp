@@ -126,44 +126,54 @@ void goForward(TurningRoute &route, const Task &task) noexcept {
   }
 }
 
+/// The phases that end at standstill: the acceleration rises with the jerk to the rate of braking,
+/// and falls to `last`, what may go on there; the result is what it is then. Both towards rising
+/// velocities; `sign` -1 gives the phases to the other side. Of the squares of accelerations at
+/// standstill `most` is what the jerk alone leads to, more than last * last.
+double brake(Phase (&phases)[3], double sign, double velocity, double from, double most,
+             double allowed, double last, const Rates &rates) noexcept {
+  const double jerk = rates.jerk;
+  const double half = 0.5 * (most + allowed);
+  const double highest = exact::larger(from, rates.falling); // it may begin beyond its limit
+  double peak = exact::sqrt(half);
+  double hold = 0.0;
+  if (peak > highest) {
+    peak = rates.falling;
+    hold = (half - highest * highest) / (jerk * rates.falling);
+  } else if (from > peak) { // what is too much at the start is not gone by then
+    peak = last = exact::sqrt(from * from + 2.0 * jerk * velocity);
+  }
+  phases[0] = {exact::fabs(peak - from) / jerk, sign * (peak < from ? -jerk : jerk), sign * peak};
+  phases[1] = {hold, 0.0, sign * peak};
+  phases[2] = {(peak - last) / jerk, -sign * jerk, sign * last};
+  return last;
+}
+
 } // namespace
 
 // Over the velocity, the acceleration first rises with the jerk to the rate of braking, and ends by
 // falling with the jerk to what may go on beyond standstill. Whoever has a greater acceleration at
 // each velocity is faster and farther at each time, so no other turn is sooner.
 Turn::Turn(double velocity, double from, const Rates &rates, double top) noexcept {
-  const double jerk = rates.jerk;
-  const double braking = rates.falling;
-  const double twice = 2.0 * jerk;
+  const double twice = 2.0 * rates.jerk;
   // All squares of accelerations: what the jerk alone leads to at standstill, and what is allowed.
   const double most = from * from - twice * velocity;
-  const double weaker = exact::smaller(braking, rates.rising);
+  const double weaker = exact::smaller(rates.falling, rates.rising);
   const double allowed = exact::smaller(weaker * weaker, twice * top * (1.0 - 8.0 * kEpsilon));
-  double peak = 0.0;
-  double hold = 0.0;
-  double last = 0.0;
-  if (most <= allowed) {
-    peak = last = exact::sqrt(most);
+  if (most > allowed) {
+    acceleration = brake(phases, 1.0, velocity, from, most, allowed, exact::sqrt(allowed), rates);
   } else {
-    const double half = 0.5 * (most + allowed);
-    const double highest = exact::larger(from, braking); // it may begin beyond its limit
-    last = exact::sqrt(allowed);
-    peak = exact::sqrt(half);
-    if (peak > highest) {
-      peak = braking;
-      hold = (half - highest * highest) / (jerk * braking);
-    } else if (from > peak) { // what is too much at the start is not gone by then
-      peak = last = exact::sqrt(from * from + twice * velocity);
-    }
+    acceleration = exact::sqrt(most);
+    const bool falls = acceleration < from;
+    phases[0] = {exact::fabs(acceleration - from) / rates.jerk, falls ? -rates.jerk : rates.jerk,
+                 acceleration};
+    phases[1] = {0.0, 0.0, acceleration};
+    phases[2] = {0.0, -rates.jerk, acceleration};
   }
-  phases[0] = {exact::fabs(peak - from) / jerk, peak < from ? -jerk : jerk, peak};
-  phases[1] = {hold, 0.0, peak};
-  phases[2] = {(peak - last) / jerk, -jerk, last};
   State state = {0.0, velocity, from};
   for (const Phase &phase : phases)
     state = after(state, phase);
   way = state.position;
-  acceleration = last;
 }
 
 TurningChange::TurningChange(double velocity, double from, double to, const Rates &rates) noexcept {
@@ -173,8 +183,7 @@ TurningChange::TurningChange(double velocity, double from, double to, const Rate
 
 void TurningChange::change(double sign, double velocity, double from, double to,
                            const Rates &rates) noexcept {
-  const double jerk = rates.jerk;
-  const double twice = 2.0 * jerk;
+  const double twice = 2.0 * rates.jerk;
   // Squares of the acceleration at standstill.
   const double jerked = from * from - twice * velocity;
   const double last = twice * to;
@@ -189,22 +198,7 @@ void TurningChange::change(double sign, double velocity, double from, double to,
         VelocityChange(sign * velocity, sign * from, sign * to, rising ? rates : rates.mirrored());
     return;
   }
-  const double braking = rates.falling;
-  const double half = 0.5 * (jerked + allowed);
-  const double highest = exact::larger(from, braking); // it may begin beyond its limit
-  double peak = exact::sqrt(half);
-  double hold = 0.0;
-  acceleration = weaker;
-  if (peak > highest) {
-    peak = braking;
-    hold = (half - highest * highest) / (jerk * braking);
-  } else if (from > peak) { // what is too much at the start is not gone by then
-    peak = acceleration = exact::sqrt(from * from + twice * velocity);
-  }
-  lead[0] = {exact::fabs(peak - from) / jerk, sign * (peak < from ? -jerk : jerk), sign * peak};
-  lead[1] = {hold, 0.0, sign * peak};
-  lead[2] = {(peak - acceleration) / jerk, -sign * jerk, sign * acceleration};
-  acceleration *= sign;
+  acceleration = sign * brake(lead, sign, velocity, from, jerked, allowed, weaker, rates);
   turns = true;
   rest = VelocityChange(0.0, acceleration, sign * to, sign > 0.0 ? rates : rates.mirrored());
 }
