@@ -8,12 +8,11 @@ result that steps through the instructions as they stand, with a stack for paren
 expressions, which is what the compiler makes of the lines. Every variable must have the value that the machine leaves in it.
 A project that disagrees is left in FOLDER (default: the temporary folder) and named.
 """
-import argparse
-import pathlib
 import random
 import subprocess
 import sys
-import tempfile
+
+from seeds import try_seeds
 
 WIDTHS = {"BOOL": 1, "INT": 16, "DINT": 32, "WORD": 16}
 COUNTS = {"BOOL": 5, "INT": 4, "DINT": 5, "WORD": 3}
@@ -414,18 +413,9 @@ def same(found, value):
     return int(found[3:], 16) == int(value) if found.startswith("16#") else found == value
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("stride", type=lambda path: pathlib.Path(path).resolve())
-    parser.add_argument("--seeds", default="1..3")
+def add_options(parser):
     parser.add_argument("--count", type=int, default=30)
-    parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()))
-    options = parser.parse_args()
-    first, last = map(int, options.seeds.split(".."))
-    results = [check(options, seed) for seed in range(first, last + 1)]
-    print(f"{len(results) - results.count(None)} of {len(results)} projects agree, {sum(filter(None, results))} programs")
-    return 1 if None in results else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(try_seeds(check, "1..3", "programs", add_options))

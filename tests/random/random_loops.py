@@ -10,15 +10,13 @@ just the indices that it used, or one less, so that it ends as it should or is s
 with checks, each within a __TRY, and those that end also without. What every variable holds and which exception came must
 be what the interpreter says. A seed that disagrees is left in FOLDER (default: the temporary folder) and named.
 """
-import argparse
-import pathlib
 import random
 import re
 import subprocess
 import sys
-import tempfile
 
 from model import NUMBERS, Skip, common, divided, limits, wrap, widened
+from seeds import try_seeds
 
 TYPES = ["DINT", "DINT", "DINT", "INT", "INT", "UINT", "SINT", "USINT", "UDINT", "LINT"]
 FUEL = 4000
@@ -814,18 +812,9 @@ def check(options, seed):
     return len(cases) if good else None
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("stride", type=lambda text: pathlib.Path(text).resolve())
-    parser.add_argument("--seeds", default="1..4")
+def add_options(parser):
     parser.add_argument("--count", type=int, default=40)
-    parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()))
-    options = parser.parse_args()
-    first, last = map(int, options.seeds.split(".."))
-    results = [check(options, seed) for seed in range(first, last + 1)]
-    print(f"{len(results) - results.count(None)} of {len(results)} projects agree, {sum(filter(None, results))} cases")
-    return 1 if None in results else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(try_seeds(check, "1..4", "cases", add_options))

@@ -10,15 +10,13 @@ folder gives it; `--modes two` gives each seed two of them that differ in everyt
 known: it runs in the checked modes. With --small a seed has twelve programs and one function and block, besides those of
 movers.py, for many seeds in little time. A project that disagrees is left in FOLDER (default: the temporary folder) and named.
 """
-import argparse
-import pathlib
 import random
 import subprocess
 import sys
-import tempfile
 
 from model import agrees
 from programs import Generator
+from seeds import try_seeds
 
 MODES = {"O2": [], "O0": ["--debug"], "O2-unchecked": ["--unchecked"], "O0-unchecked": ["--debug", "--unchecked"]}
 GROUPS, COUNT, POUS = 5, 20, 8
@@ -68,19 +66,10 @@ def run(stride, source, names, expected, mode, error):
     return False
 
 
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("stride", type=lambda text: pathlib.Path(text).resolve())
-    parser.add_argument("--seeds", default="1..4")
+def add_options(parser):
     parser.add_argument("--modes", type=lambda text: text.split(","))
     parser.add_argument("--small", action="store_true")
-    parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()))
-    options = parser.parse_args()
-    first, last = map(int, options.seeds.split(".."))
-    results = [check(options, seed) for seed in range(first, last + 1)]
-    print(f"{len(results) - results.count(None)} of {len(results)} projects agree, {sum(filter(None, results))} programs")
-    return 1 if None in results else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(try_seeds(check, "1..4", "programs", add_options))
