@@ -429,18 +429,25 @@ TEST(ParabolicProperty, Velocities) {
   }
 }
 
+/// Numbers of up to so many decades more or less than 1; the acceleration at the start may be
+/// `beyond` decades greater than the limits.
+Problem problemOfScales(Random &random, double decades, double beyond) {
+  const auto any = [&] { return random.magnitude(-decades, decades); };
+  Problem p{};
+  p.start.position = random.chance(0.3) ? 0 : random.sign() * any();
+  p.target = random.chance(0.1) ? p.start.position : random.sign() * any();
+  p.start.velocity = random.chance(0.3) ? 0 : random.sign() * any();
+  p.limits = {any(), any(), any(), any()};
+  if (random.chance(0.7))
+    p.start.acceleration = random.sign() * random.magnitude(-decades, beyond) *
+                           std::max(p.limits.acceleration, p.limits.deceleration);
+  return p;
+}
+
 TEST(ParabolicProperty, AllScales) {
   Random random(31);
   for (int i = 0; i < 50000; ++i) {
-    const auto any = [&] { return random.magnitude(-15, 15); };
-    Problem p{};
-    p.start.position = random.chance(0.3) ? 0 : random.sign() * any();
-    p.target = random.chance(0.1) ? p.start.position : random.sign() * any();
-    p.start.velocity = random.chance(0.3) ? 0 : random.sign() * any();
-    p.limits = {any(), any(), any(), any()};
-    if (random.chance(0.7))
-      p.start.acceleration = random.sign() * random.magnitude(-15, 3) *
-                             std::max(p.limits.acceleration, p.limits.deceleration);
+    const Problem p = problemOfScales(random, 15, 3);
     Profile profile;
     ASSERT_EQ(planParabolic(profile, p.start, p.target, 0.0, p.limits), PlanError::None) << p;
     ASSERT_EQ(profile.end.position, p.target) << p;
@@ -451,16 +458,8 @@ TEST(ParabolicProperty, AllScales) {
 TEST(ParabolicProperty, ManyScalesToAVelocity) {
   Random random(37);
   for (int i = 0; i < 50000; ++i) {
-    const auto any = [&] { return random.magnitude(-2.5, 2.5); };
-    Problem p{};
-    p.start.position = random.chance(0.3) ? 0 : random.sign() * any();
-    p.target = random.chance(0.1) ? p.start.position : random.sign() * any();
-    p.start.velocity = random.chance(0.3) ? 0 : random.sign() * any();
-    p.limits = {any(), any(), any(), any()};
+    Problem p = problemOfScales(random, 2.5, 1);
     p.endVelocity = random.sign() * random.magnitude(-2.5, 0) * p.limits.velocity;
-    if (random.chance(0.7))
-      p.start.acceleration = random.sign() * random.magnitude(-2.5, 1) *
-                             std::max(p.limits.acceleration, p.limits.deceleration);
     Profile profile;
     ASSERT_EQ(planParabolic(profile, p.start, p.target, p.endVelocity, p.limits), PlanError::None)
         << p;
