@@ -10,6 +10,7 @@
 #include "compiler/project/translation_units.hpp"
 #include "compiler/project/user_cache.hpp"
 #include "compiler/source/content_hash.hpp"
+#include "compiler/source/workers.hpp"
 
 #include <cstdlib>
 #include <cstring>
@@ -27,6 +28,9 @@ namespace {
 // In the folder of emitted sources: the names of those that Stride has written there.
 constexpr std::string_view kEmittedList = ".stride-sources";
 constexpr uintmax_t kMaxListBytes = 16U << 20U; // of whatever a project ships under that name
+
+// What is read in the time that a call of the C++ compiler takes, in bytes at least.
+constexpr size_t kCompilerCall = 1U << 20U;
 
 // A name of a generated file, as opposed to whatever else a list may hold.
 bool isGeneratedName(const fs::path &name) {
@@ -49,7 +53,7 @@ public:
     if (!findToolchain() || !openCache())
       return std::nullopt;
     units_ = divideIntoUnits(files_);
-    includes_.emplace(files_);
+    includes_.emplace(files_, workers());
     base_ = identityOf(toolchain_, *cache_, work_->path());
     return compileAndLink();
   }
@@ -213,10 +217,12 @@ private:
     const std::vector<Unit> all = units();
     const std::string key = linkKey(all);
     result.units = all.size();
-    if (!cache_->has(key, kind())) {
+    linked_ = cache_->content(key, kind());
+    if (!linked_) {
       // Whoever has it builds the same, perhaps; then nothing is left to do.
       const std::optional<CacheLock> lock = cache_->lock(key);
-      if (!cache_->has(key, kind()) && !make(key, all, result.compiled)) {
+      linked_ = cache_->content(key, kind());
+      if (!linked_ && !make(key, all, result.compiled)) {
         work_->keep();
         return std::nullopt;
       }
@@ -226,14 +232,22 @@ private:
 
   bool make(const std::string &key, const std::vector<Unit> &all, size_t &compiled) {
     std::vector<Unit> outdated;
+    std::vector<Unit> kept;
     for (const Unit &unit : all)
-      if (!cache_->fetch(unit.key, ".o", unit.object))
-        outdated.push_back(unit);
+      (cache_->mayHave(unit.key, ".o") ? kept : outdated).push_back(unit);
+    std::vector<Unit> broken;
+    // What is kept is looked at while the others are compiled.
+    bool good = true;
+    Workers::each(2, workers().threadsFor(2, kCompilerCall), [&](size_t what, unsigned) {
+      if (what == 0)
+        good = compile(outdated);
+      else
+        broken = fetch(kept);
+    });
+    outdated.insert(outdated.end(), broken.begin(), broken.end());
     compiled = outdated.size();
-    if (!writeSourcesOf(outdated))
-      return false;
     const fs::path linked = work_->path() / ("linked" + std::string(kind()));
-    if (!precompile(outdated) || !compile(outdated) || !linkTo(linked, all))
+    if (!good || !compile(broken) || !linkTo(linked, all))
       return false;
     if (identityOf(toolchain_, *cache_, work_->path()).hex() != base_.hex()) {
       diagnostics_
@@ -244,7 +258,8 @@ private:
     }
     for (const Unit &unit : outdated) // without them the next build takes longer, no more
       static_cast<void>(cache_->publish(unit.key, ".o", unit.object));
-    if (!cache_->publish(key, kind(), linked))
+    linked_ = cache_->publish(key, kind(), linked);
+    if (!linked_)
       return cannotWrite(cache_->place(key, kind()));
     if (!outdated.empty())
       cache_->prune(outdated.front().key, ".o");
@@ -252,12 +267,20 @@ private:
     return true;
   }
 
+  /// Takes from the cache what it has of them, and returns the others.
+  std::vector<Unit> fetch(const std::vector<Unit> &units) const {
+    std::vector<Unit> broken;
+    for (const Unit &unit : units)
+      if (!cache_->fetch(unit.key, ".o", unit.object))
+        broken.push_back(unit);
+    return broken;
+  }
+
   /// What they are compiled from, into the folder of this build.
   bool writeSourcesOf(const std::vector<Unit> &units) {
-    std::unordered_set<const GeneratedFile *> written;
     for (const Unit &unit : units)
       for (const GeneratedFile *file : includes_->closureOf(unit.source->path))
-        if (written.insert(file).second && !writeNewFile(sources_ / file->path, file->text))
+        if (written_.insert(file).second && !writeNewFile(sources_ / file->path, file->text))
           return cannotWrite(sources_ / file->path);
     return true;
   }
@@ -289,7 +312,7 @@ private:
   }
 
   bool precompile(const std::vector<Unit> &outdated) {
-    if (outdated.empty() || !precompilesHeaders(toolchain_, units_.size()))
+    if (outdated.empty() || precompiled_ || !precompilesHeaders(toolchain_, units_.size()))
       return true;
     const std::optional<PrecompilingFailed> failed = precompileHeaders(
         *cache_, base_, compilerWith(toolchain_.compileFlags), sources_, work_->path());
@@ -297,10 +320,13 @@ private:
       return cannotWrite(sources_);
     if (failed)
       reportFailure("compiling", failed->job, failed->result);
-    return !failed;
+    precompiled_ = !failed;
+    return precompiled_;
   }
 
   bool compile(const std::vector<Unit> &units) {
+    if (!writeSourcesOf(units) || !precompile(units))
+      return false;
     std::vector<Job> jobs;
     for (const Unit &unit : units)
       jobs.push_back(
@@ -319,36 +345,14 @@ private:
 
   bool linkTo(const fs::path &linked, const std::vector<Unit> &units) {
     progress("linking", units.size(), units.size() + 1);
-    const Installation &installation = toolchain_.installation;
+    std::vector<fs::path> objects;
+    for (const Unit &unit : units)
+      objects.push_back(unit.object);
     Job job;
+    job.command =
+        linkCommand(toolchain_, options_.isStatic, !options_.target.empty(), linked, objects);
     job.folder = work_->path().string();
     job.temporary = job.folder;
-    job.command = {toolchain_.compiler.string(),
-                   options_.isStatic ? "-static" : "-shared",
-                   "-o",
-                   linked.string(),
-                   "-Wl,--gc-sections",
-                   "-Wl,--build-id=none"};
-    // Debian's cross compilers do not look for it.
-    if (options_.target.empty() && !findProgram("ld.lld").empty())
-      job.command.insert(job.command.begin() + 1, "-fuse-ld=lld");
-    if (!options_.isStatic) {
-      job.command.insert(job.command.end(), {"-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic"});
-      job.command.insert(job.command.end(), installation.linkFlags.begin(),
-                         installation.linkFlags.end());
-    }
-    for (const Unit &unit : units)
-      job.command.push_back(unit.object.string());
-    job.command.emplace_back("-Wl,--start-group");
-    if (options_.isStatic)
-      for (const fs::path &library : installation.hostLibraries)
-        job.command.push_back(library.string());
-    for (const fs::path &library : installation.libraries)
-      job.command.push_back(library.string());
-    job.command.emplace_back("-Wl,--end-group");
-    if (options_.isStatic)
-      job.command.insert(job.command.end(), installation.staticFlags.begin(),
-                         installation.staticFlags.end());
     const std::vector<JobResult> results = runJobs({job});
     if (results[0].status != 0)
       reportFailure("linking", job, results[0]);
@@ -426,21 +430,20 @@ private:
   }
 
   bool keep(BuildResult &result) {
-    const std::optional<std::string> content = UserCache::unsealed(result.runnable);
-    if (!content)
-      return cannotWrite(result.runnable);
     result.application = options_.output;
     if (!result.application.empty())
-      return writeFile(result.application, *content, 0777) || cannotWrite(result.application);
+      return writeFile(result.application, *linked_, 0777) || cannotWrite(result.application);
     const fs::path name = fs::path("build") / (options_.isStatic ? "app" : "app.so");
     result.application = project_.path() / name;
     const std::optional<OutputFolder> folder = OutputFolder::open(project_.path());
-    if (!folder || !folder->write(name, *content, 0777))
+    if (!folder || !folder->write(name, *linked_, 0777))
       return cannotWrite(result.application);
     const fs::path ignore = "build/.gitignore";
     return folder->hasFile(ignore) || folder->write(ignore, "*\n") ||
            cannotWrite(project_.path() / ignore);
   }
+
+  [[nodiscard]] Workers workers() const { return Workers(project_.program().settings.jobs); }
 
   void progress(std::string_view what, size_t done, size_t total) const {
     if (options_.progress)
@@ -458,6 +461,9 @@ private:
   std::vector<GeneratedFile> files_;
   std::vector<TranslationUnit> units_;
   std::optional<IncludeGraph> includes_;
+  std::unordered_set<const GeneratedFile *> written_; ///< to `sources_`
+  bool precompiled_ = false;
+  std::optional<std::string> linked_; ///< what is built
 };
 
 } // namespace

@@ -182,6 +182,33 @@ std::vector<std::string> compileFlags(const Installation &installation, bool deb
   return flags;
 }
 
+std::vector<std::string> linkCommand(const Toolchain &toolchain, bool isStatic, bool isCross,
+                                     const fs::path &linked, const std::vector<fs::path> &objects) {
+  const Installation &installation = toolchain.installation;
+  std::vector<std::string> command = {toolchain.compiler.string()};
+  const auto add = [&command](const auto &words) {
+    command.insert(command.end(), words.begin(), words.end());
+  };
+  if (!isCross && !findProgram("ld.lld").empty()) // Debian's cross compilers do not look for it
+    command.emplace_back("-fuse-ld=lld");
+  command.emplace_back(isStatic ? "-static" : "-shared");
+  command.insert(command.end(),
+                 {"-o", linked.string(), "-Wl,--gc-sections", "-Wl,--build-id=none"});
+  if (!isStatic) {
+    command.insert(command.end(), {"-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic"});
+    add(installation.linkFlags);
+  }
+  add(objects);
+  command.emplace_back("-Wl,--start-group");
+  if (isStatic)
+    add(installation.hostLibraries);
+  add(installation.libraries);
+  command.emplace_back("-Wl,--end-group");
+  if (isStatic)
+    add(installation.staticFlags);
+  return command;
+}
+
 ContentHash identityOf(const Toolchain &toolchain, const UserCache &cache, const fs::path &work) {
   std::error_code error;
   ContentHash hash;

@@ -35,6 +35,12 @@ struct Toolchain {
 [[nodiscard]] std::vector<std::string> compileFlags(const Installation &installation, bool debug,
                                                     bool runsOnce);
 
+/// The command that makes the application `linked` of the objects: a library, or a program that
+/// needs none (`isStatic`); `isCross`: for another machine.
+[[nodiscard]] std::vector<std::string>
+linkCommand(const Toolchain &toolchain, bool isStatic, bool isCross,
+            const std::filesystem::path &linked, const std::vector<std::filesystem::path> &objects);
+
 /// What identifies the tool chain: the compiler with its parts (its stages, assembler, linker), the
 /// flags, the environment that changes what it does, Stride's headers and all headers of the system
 /// that these include, each file with size, times and inode. What the compiler says about itself is

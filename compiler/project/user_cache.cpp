@@ -280,40 +280,40 @@ fs::path UserCache::place(std::string_view key, std::string_view kind) const {
          fmt::format("{}{}", key, kind);
 }
 
-bool UserCache::has(std::string_view key, std::string_view kind) const {
+std::optional<std::string> UserCache::content(std::string_view key, std::string_view kind) const {
   const fs::path path = place(key, kind);
   if (::utimensat(AT_FDCWD, path.c_str(), nullptr, AT_SYMLINK_NOFOLLOW) != 0)
-    return false;
-  if (unsealed(path))
-    return true;
+    return std::nullopt;
+  std::optional<std::string> text = readRegularFile(path);
+  if (const std::optional<std::string_view> content = text ? unseal(*text) : std::nullopt) {
+    text->resize(content->size());
+    return text;
+  }
   std::error_code ignored; // whatever it is, be it a folder
   fs::remove_all(path, ignored);
-  return false;
+  return std::nullopt;
+}
+
+bool UserCache::mayHave(std::string_view key, std::string_view kind) const {
+  return ::access(place(key, kind).c_str(), F_OK) == 0;
 }
 
 bool UserCache::fetch(std::string_view key, std::string_view kind, const fs::path &to) const {
   const fs::path from = place(key, kind);
-  return has(key, kind) && (::link(from.c_str(), to.c_str()) == 0 || copyFile(from, to));
+  return content(key, kind) && (::link(from.c_str(), to.c_str()) == 0 || copyFile(from, to));
 }
 
-bool UserCache::publish(std::string_view key, std::string_view kind, const fs::path &from) const {
-  const std::optional<std::string> content = readRegularFile(from);
+std::optional<std::string> UserCache::publish(std::string_view key, std::string_view kind,
+                                              const fs::path &from) const {
+  std::optional<std::string> text = readRegularFile(from);
   struct stat status {};
-  if (!content || ::stat(from.c_str(), &status) != 0)
-    return false;
-  const fs::path to = place(key, kind);
-  return writeFile(to, fmt::format("{}{}{}", *content, kSeal, blake2b256(*content)),
-                   status.st_mode & 0777);
-}
-
-std::optional<std::string> UserCache::unsealed(const fs::path &path) {
-  std::optional<std::string> text = readRegularFile(path);
-  if (!text)
+  if (!text || ::stat(from.c_str(), &status) != 0)
     return std::nullopt;
-  const std::optional<std::string_view> content = unseal(*text);
-  if (!content)
+  const size_t size = text->size();
+  text->append(kSeal).append(blake2b256({text->data(), size}));
+  if (!writeFile(place(key, kind), *text, status.st_mode & 0777))
     return std::nullopt;
-  text->resize(content->size());
+  text->resize(size);
   return text;
 }
 

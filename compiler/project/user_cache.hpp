@@ -69,16 +69,19 @@ public:
 
   /// Where the store has, or would have, a file: `kind` is the suffix of its name (`.o`, `.so`).
   [[nodiscard]] std::filesystem::path place(std::string_view key, std::string_view kind) const;
-  /// Whether the store has the file, complete. It counts as used now.
-  [[nodiscard]] bool has(std::string_view key, std::string_view kind) const;
-  /// As has(); then `to` is the same file, or a copy of it.
+  /// What the store has, without its seal; nothing when it does not have it, complete. It counts as
+  /// used now.
+  [[nodiscard]] std::optional<std::string> content(std::string_view key,
+                                                   std::string_view kind) const;
+  /// The store has such a file, complete or not.
+  [[nodiscard]] bool mayHave(std::string_view key, std::string_view kind) const;
+  /// Whether the store has the file, complete; then `to` is the same file, or a copy of it.
   [[nodiscard]] bool fetch(std::string_view key, std::string_view kind,
                            const std::filesystem::path &to) const;
-  /// Seals `from` and puts it into the store. False on failure (errno).
-  [[nodiscard]] bool publish(std::string_view key, std::string_view kind,
-                             const std::filesystem::path &from) const;
-  /// The contents of a file of the store without its seal; nothing when it is not complete.
-  [[nodiscard]] static std::optional<std::string> unsealed(const std::filesystem::path &path);
+  /// Puts a copy of `from` into the store, with a seal; returns what it holds. Nothing on failure
+  /// (errno).
+  std::optional<std::string> publish(std::string_view key, std::string_view kind,
+                                     const std::filesystem::path &from) const;
 
   /// Small texts by key: what is read from them must be checked as any input.
   [[nodiscard]] std::optional<std::string> note(std::string_view key) const;

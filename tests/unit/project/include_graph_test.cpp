@@ -23,16 +23,19 @@ TEST(IncludeGraph, FollowsIncludesOnceAndThroughCircles) {
       {"st/c.h", "#include \"unfinished"},
       {"other.cpp", "int x;"},
   };
-  IncludeGraph graph(files);
-  EXPECT_THAT(paths(graph.closureOf("a.cpp")), ElementsAre("a.cpp", "st/a.h", "st/b.h", "st/c.h"));
-  EXPECT_THAT(paths(graph.closureOf("st/b.h")), ElementsAre("st/b.h", "st/a.h", "st/c.h"));
-  EXPECT_THAT(paths(graph.closureOf("other.cpp")), ElementsAre("other.cpp"));
+  for (const unsigned threads : {1U, 3U}) {
+    const IncludeGraph graph(files, Workers(threads));
+    EXPECT_THAT(paths(graph.closureOf("a.cpp")),
+                ElementsAre("a.cpp", "st/a.h", "st/b.h", "st/c.h"));
+    EXPECT_THAT(paths(graph.closureOf("st/b.h")), ElementsAre("st/b.h", "st/a.h", "st/c.h"));
+    EXPECT_THAT(paths(graph.closureOf("other.cpp")), ElementsAre("other.cpp"));
+  }
 }
 
 TEST(IncludeGraph, HashesPathAndText) {
   const std::vector<GeneratedFile> files = {
       {"a.h", "x"}, {"a.h", "x"}, {"b.h", "x"}, {"a.h", "y"}, {"a.hx", ""}};
-  IncludeGraph graph(files);
+  const IncludeGraph graph(files, Workers(1));
   EXPECT_EQ(graph.hashOf(files[0]), graph.hashOf(files[1]));
   for (size_t i = 2; i < files.size(); ++i)
     EXPECT_NE(graph.hashOf(files[0]), graph.hashOf(files[i])) << i;
