@@ -52,6 +52,19 @@ bool convertsTo(const PouSymbol *from, const PouSymbol *to) {
   return to->isInterface() && !from->isInterface() && implements(from, to);
 }
 
+bool isIncomplete(const PouSymbol *pou) {
+  std::unordered_set<const PouSymbol *> seen;
+  const auto lacks = [](const PouSymbol *one) { return one->lacksParts; };
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    if (lacks(p))
+      return true;
+    for (const PouSymbol *i : p->interfaces)
+      if (anyInterface(i, seen, lacks))
+        return true;
+  }
+  return false;
+}
+
 bool isInside(const PouSymbol *code, const PouSymbol *block) {
   return code != nullptr && block != nullptr && derivesFrom(blockOf(code), blockOf(block));
 }

@@ -24,6 +24,10 @@ namespace stc {
 /// or derived interface for an interface.
 [[nodiscard]] bool convertsTo(const PouSymbol *from, const PouSymbol *to);
 
+/// The block, program or interface, or one that it extends or implements, may have more members
+/// than are known, for something of its head is wrong (reported).
+[[nodiscard]] bool isIncomplete(const PouSymbol *pou);
+
 /// The code belongs to the block, or to one that extends it.
 [[nodiscard]] bool isInside(const PouSymbol *code, const PouSymbol *block);
 /// The member that is named, when it is a function block's own variable, which the code may at most

@@ -119,8 +119,10 @@ struct PouSymbol : Symbol {
   PouSymbol *overrides = nullptr; ///< method: the one of the nearest base that it replaces
   bool overridden = false;        ///< method: a block of the program replaces it
   bool extended = false;          ///< a block of the program extends it
-  bool linking = false;           ///< its base is being looked up: meeting it is a circle
-  bool linked = false;            ///< base, interfaces and members are known
+  bool lacksParts = false; ///< a base or interface that it names is none, or its head was not read
+                           ///< in full (reported): what is not found may have been there
+  bool linking = false;    ///< its base is being looked up: meeting it is a circle
+  bool linked = false;     ///< base, interfaces and members are known
 
   [[nodiscard]] bool isFunction() const { return decl->kind == ast::DeclKind::Function; }
   /// METHOD, ACTION, accessor

@@ -165,6 +165,7 @@ struct PouDecl : Node<Decl, DeclKind::Program, DeclKind::Function, DeclKind::Fun
   TypeExpr *returnType = nullptr; ///< FUNCTION, METHOD; null: none
   Block body;
   bool external = false;          ///< `{external}`: the body is C++
+  bool hasGenerics = false;       ///< it has generic constants, which are not read (reported)
   NamePath base;                  ///< EXTENDS of a block or class; empty: none
   std::span<NamePath> interfaces; ///< IMPLEMENTS; of an INTERFACE: EXTENDS
   std::span<PouDecl *> methods;

@@ -94,7 +94,9 @@ private:
   void pou();
   Head head();
   bool memberAfterComma();
-  void readHead(std::vector<Token> &usings);
+  /// Whether generic constants stand in it, which has been reported.
+  bool readHead(std::vector<Token> &usings);
+  bool genericConstants();
   void readHeadType();
   void content(Content &out, OpenPou *members);
   /// Takes the END_… of `head`; says so when it is another one or missing. True: the end of the

@@ -57,7 +57,24 @@ bool FileParser::memberAfterComma() {
   return true;
 }
 
-void FileParser::readHead(std::vector<Token> &usings) {
+/// CODESYS: `VAR_GENERIC CONSTANT … END_VAR` between the name of a block and EXTENDS. One report,
+/// and they are left out.
+bool FileParser::genericConstants() {
+  if (!isNow("var_generic"))
+    return false;
+  diagnostics_
+      .report(Code::UnexpectedToken, span(now_), "there are no generic constants",
+              "VAR_GENERIC is not known")
+      .help("write `VAR CONSTANT`, and one block for each value; a VAR_IN_OUT of type `ARRAY[*] OF "
+            "…` takes arrays of any length");
+  while (now_.type != Tok::END_VAR && !endsUnit())
+    advance();
+  if (now_.type == Tok::END_VAR)
+    advance();
+  return true;
+}
+
+bool FileParser::readHead(std::vector<Token> &usings) {
   unit_.clear();
   const uint16_t keyword = now_.type;
   take();
@@ -83,6 +100,7 @@ void FileParser::readHead(std::vector<Token> &usings) {
     }
   };
   readUsings();
+  const bool isGeneric = genericConstants();
   const auto path = [&] {
     while (now_.type == Tok::IDENT || now_.type == Tok::DOT || now_.type == Tok::COMMA) {
       if (memberAfterComma())
@@ -104,6 +122,7 @@ void FileParser::readHead(std::vector<Token> &usings) {
       readHeadType();
   }
   readUsings();
+  return isGeneric;
 }
 
 void FileParser::readHeadType() {
@@ -156,11 +175,13 @@ FileParser::Head FileParser::head() {
   Head out;
   out.keyword = now_;
   std::vector<Token> usings;
-  readHead(usings);
+  const bool isGeneric = readHead(usings);
   out.span = {file_.id(), out.keyword.begin, unit_.back().end};
   auto *unit = parseUnit(&Grammar::headUnit);
   if (unit != nullptr && !unit->children.empty())
     out.node = builder_.head(static_cast<Grammar::PouHeadContext *>(unit->children[0]), out.owner);
+  if (out.node != nullptr)
+    out.node->hasGenerics = isGeneric;
   if (!usings.empty()) {
     std::vector<ast::NamePath> list = usings_;
     for (auto at = usings.begin(); at != usings.end();) {

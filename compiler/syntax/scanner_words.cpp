@@ -188,6 +188,7 @@ bool Scanner::isKeywordHere(Keyword keyword, size_t wordEnd) const {
     return statementBegins(wordEnd);
   case Keyword::Kind::Clause:
     return (previous_ == Tok::IDENT || previous_ == Tok::SEMICOLON || // after USING
+            previous_ == Tok::END_VAR || // after generic constants, which are reported
             (previous_ == Tok::STRUCT && keyword.type == Tok::EXTENDS)) &&
            nameFollows(wordEnd);
   case Keyword::Kind::Modifier:

@@ -116,6 +116,8 @@ bool isParameter(const VarSymbol *v) {
 
 static void reportUnknownParameter(Context &c, const Binding &binding, const Argument &a,
                                    bool isPrivate) {
+  if (!isPrivate && isIncomplete(binding.pou))
+    return;
   auto &d = c.report(Code::UnknownParameter, a.name.span,
                      "`" + std::string(binding.pou->name.text) + "` has no parameter `" +
                          std::string(a.name.text) + "`",
@@ -306,7 +308,8 @@ bool refersTo(const Type *type, const Type *wanted) {
 void checkReference(Context &c, Expr *value, const Type *wanted) {
   const Type *type = check(c, value, wanted);
   const bool fromCall = givesReference(value);
-  if (isError(type) || isError(wanted) || (!fromCall && !requireVariable(c, value, "refer to")))
+  if (isError(type) || isError(wanted) || refersToNothing(c, value, wanted) ||
+      (!fromCall && !requireVariable(c, value, "refer to")))
     return;
   const bool isBit = isBitPlace(value);
   if (isBit || !refersTo(type, wanted))

@@ -147,6 +147,8 @@ static void checkNothingOverridden(Context &c, const PouSymbol *method) {
   if ((method->decl->modifiers & kModOverride) == 0 || isLifecycle(method))
     return;
   const PouSymbol *owner = method->owner;
+  if (isIncomplete(owner))
+    return;
   const std::string block(owner->name.text);
   auto &d =
       c.report(Code::NothingOverridden, method->name.span,

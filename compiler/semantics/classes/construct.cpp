@@ -75,6 +75,8 @@ void checkConstruct(Context &c, VarSymbol *variable) {
 }
 
 void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *pou, Span span) {
+  if (isIncomplete(pou))
+    return; // its FB_Init may be one of those that are not there
   const std::vector<VarSymbol *> inputs = constructInputs(pou);
   const std::string name(pou->name.text);
   std::unordered_set<const VarSymbol *> given;

@@ -45,7 +45,7 @@ void checkInterfaces(Context &c, PouSymbol *pou) {
       declare(c, demanded->owner);
       PouSymbol *own = implementation(pou, demanded);
       if (own == nullptr) {
-        if (pou->isAbstract())
+        if (pou->isAbstract() || isIncomplete(pou))
           continue;
         std::string what(demanded->name.text);
         if (demanded->property != nullptr) {
@@ -86,7 +86,7 @@ void checkInterfaces(Context &c, PouSymbol *pou) {
 void checkAbstractMethods(Context &c, PouSymbol *pou) {
   if (pou->isAbstract() || pou->base == nullptr)
     return;
-  const std::string missing = missingMethods(pou);
+  const std::string missing = isIncomplete(pou) ? std::string() : missingMethods(pou);
   if (missing.empty())
     return;
   auto &d = c.report(Code::MissingImplementation, pou->name.span,

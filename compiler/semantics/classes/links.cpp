@@ -122,24 +122,26 @@ static bool isChainTooLong(Context &c, PouSymbol *pou, const PouSymbol *other, c
 static void linkBase(Context &c, PouSymbol *pou) {
   const Name &name = pou->decl->base.back();
   PouSymbol *base = lookupBase(c, pou->decl->base, false, pou);
-  if (base == nullptr)
-    return;
-  if (!isCircle(c, pou, base, name))
+  if (base != nullptr && !isCircle(c, pou, base, name))
     link(c, base);
-  if (!base->linking && !isChainTooLong(c, pou, base, name)) {
-    pou->base = base;
-    base->extended = true;
+  if (base == nullptr || base->linking || isChainTooLong(c, pou, base, name)) {
+    pou->lacksParts = true;
+    return;
   }
+  pou->base = base;
+  base->extended = true;
 }
 
 static void linkInterfaces(Context &c, PouSymbol *pou) {
   for (NamePath path : pou->decl->interfaces) {
     PouSymbol *interface = lookupBase(c, path, true, pou);
-    if (interface == nullptr || isCircle(c, pou, interface, path.back()))
+    const bool isNone = interface == nullptr || isCircle(c, pou, interface, path.back());
+    if (!isNone)
+      link(c, interface);
+    if (isNone || isChainTooLong(c, pou, interface, path.back())) {
+      pou->lacksParts = true;
       continue;
-    link(c, interface);
-    if (isChainTooLong(c, pou, interface, path.back()))
-      continue;
+    }
     if (std::find(pou->interfaces.begin(), pou->interfaces.end(), interface) !=
         pou->interfaces.end())
       c.report(Code::DuplicateName, path.back().span,
@@ -159,6 +161,7 @@ void link(Context &c, PouSymbol *pou) {
   pou->linking = true;
   const ScopeGuard guard(c, {&c.names.moduleOf(pou), nullptr, pou->decl});
   makeMembers(c, pou);
+  pou->lacksParts = pou->decl->hasGenerics;
   if (!pou->decl->base.empty())
     linkBase(c, pou);
   linkInterfaces(c, pou);

@@ -18,7 +18,8 @@ namespace stc::sema {
 struct Reported {
   std::set<uint64_t> names; ///< places of USING and INTERNAL names
   std::set<std::pair<const PouSymbol *, Ident>> unknown;
-  size_t namesLookedAt = 0; ///< for names that are similar to unknown ones
+  std::set<std::pair<FileId, Ident>> spaces; ///< unknown libraries and namespaces, by file
+  size_t namesLookedAt = 0;                  ///< for names that are similar to unknown ones
 };
 
 /// The state of one check.

@@ -45,6 +45,9 @@ bool narrowsTo(const VarSymbol *variable, const Type *type);
 bool isReference(ast::Expr *expr);
 /// `a REF= b`, whose targets have been checked.
 void checkReferenceAssign(Context &c, ast::AssignStmt *stmt);
+/// The checked value is the 0 (or NULL) with which a REFERENCE TO `type` refers to nothing; it is
+/// given the type of such a reference then.
+[[nodiscard]] bool refersToNothing(Context &c, ast::Expr *value, const Type *type);
 /// Edition 3 writes `THIS.x` and `SUPER()` for what CODESYS writes as `THIS^.x` and `SUPER^()`.
 void followSelf(Context &c, ast::Expr *&expr);
 /// Reports a place in a block's own variables, which only its own code may change.

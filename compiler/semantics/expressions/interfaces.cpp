@@ -13,6 +13,9 @@ using namespace ast;
 
 /// Words for an instance, interface or pointer that does not convert to the interface `to`.
 static void reportNoInterface(Context &c, Expr *expr, const Type *from, const Type *to) {
+  if ((isInstance(from) || from->kind == TypeKind::Interface) &&
+      isIncomplete(typeAs<PouType>(from)->symbol))
+    return; // what it lacks may be the interface
   const std::string name = typeName(to);
   const PouSymbol *wanted = typeAs<PouType>(to)->symbol;
   const std::string text(c.program.sources.text(expr->span));

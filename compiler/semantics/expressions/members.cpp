@@ -105,6 +105,9 @@ const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
       (member->isResult || (member->owner == nullptr && member->globals != nullptr)))
     member = nullptr; // names that are only visible inside the POU
   if (member == nullptr) {
+    if ((isInstance(base) || base->kind == TypeKind::Interface) &&
+        isIncomplete(typeAs<PouType>(base)->symbol))
+      return elementaryType(TypeKind::Error); // it may be inherited from what is not there
     // `w.cBit`: a bit by the name of a constant belongs to integers, which were handled above.
     auto &d = c.report(Code::UnknownMember, expr->name.span,
                        "`" + typeName(base) + "` has no member `" + name + "`", "unknown member");

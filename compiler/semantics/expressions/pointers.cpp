@@ -147,6 +147,15 @@ bool isReference(Expr *expr) {
   return referenceVariable(expr) != nullptr;
 }
 
+bool refersToNothing(Context &c, Expr *value, const Type *type) {
+  const bool isZero =
+      value->constant != nullptr && value->constant->integer == 0 &&
+      (value->type->kind == TypeKind::AnyInteger || value->type->kind == TypeKind::Pointer);
+  if (isZero)
+    setTarget(value, c.types.pointer(type));
+  return isZero;
+}
+
 void checkReferenceAssign(Context &c, AssignStmt *stmt) {
   Expr *last = stmt->targets.back();
   if (!isReference(last)) {
@@ -159,12 +168,8 @@ void checkReferenceAssign(Context &c, AssignStmt *stmt) {
   const Type *value = check(c, stmt->value, last->type);
   if (isError(value))
     return;
-  const bool null = stmt->value->constant != nullptr && stmt->value->constant->integer == 0 &&
-                    (value->kind == TypeKind::AnyInteger || value->kind == TypeKind::Pointer);
-  if (null) { // `r REF= 0` makes it refer to nothing
-    setTarget(stmt->value, c.types.pointer(last->type));
+  if (refersToNothing(c, stmt->value, last->type))
     return;
-  }
   const bool fromCall = givesReference(stmt->value);
   if (!fromCall && !requireVariable(c, stmt->value, "refer to"))
     return;

@@ -73,9 +73,23 @@ static Symbol *spaceOfPath(Context &c, const Name &first, NamePath path) {
   return used != nullptr && used->kind == SymbolKind::Space ? used : nullptr;
 }
 
+/// One missing library is one mistake in a file.
+static void reportUnknownSpace(Context &c, const Name &name) {
+  if (!c.reported.spaces.emplace(name.span.file, name.id).second)
+    return;
+  c.report(Code::UnknownNamespace, name.span,
+           "cannot find the library or namespace `" + std::string(name.text) + "`",
+           "not named in stride.toml, no NAMESPACE of the project")
+      .help("a library of your own is named in stride.toml: `[[library]]` with `path = \"…\"`");
+}
+
 Symbol *lookupPath(Context &c, NamePath path, bool asType) {
   const Name first = path.front();
   Symbol *symbol = path.size() == 1 ? lookup(c, first) : spaceOfPath(c, first, path);
+  if (symbol == nullptr && path.size() != 1) {
+    reportUnknownSpace(c, first);
+    return nullptr;
+  }
   if (symbol == nullptr) {
     reportUnknown(c, first, asType ? Sought::Type : Sought::Value);
     return nullptr;

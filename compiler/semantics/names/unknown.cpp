@@ -227,6 +227,9 @@ void reportUnknown(Context &c, const Name &name, Sought sought) {
       return; // one missing declaration is one mistake
     if (!c.reporter.keepsErrors())
       return; // nobody would see what is found out for it
+    if (c.reported.spaces.contains({name.span.file, name.id}) ||
+        (c.scope.pou != nullptr && isIncomplete(blockOf(c.scope.pou))))
+      return; // it may be in what has been reported
     if (reportSelf(c, name))
       return;
   }
