@@ -84,46 +84,11 @@ PlanError result(bool representable) noexcept {
   return representable ? PlanError::None : PlanError::Unrepresentable;
 }
 
-/// The motion of `task` to rest, to which the axis must turn around into the direction `side`.
-/// False if there is none.
-template <class Units>
-bool moveByTurn(Builder<Units> &builder, const Task &task, double side, double target) noexcept {
-  const Turn turn(task.velocity, task.acceleration, task.rates, task.top);
-  Task rest = task;
-  rest.velocity = 0.0;
-  rest.acceleration = turn.acceleration;
-  rest.distance -= turn.way;
-  Route route;
-  if (findRoute(route, rest)) {
-    builder.turn(turn, side);
-    builder.route(route, side, target, 0.0);
-    return true;
-  }
-  // It is so near that the turn is hardly more than the way back to rest: the acceleration at
-  // standstill is less than that of the turn, and falls from there on.
-  Task near = task;
-  near.bottom =
-      exact::smaller(-task.top, settledVelocity(task.velocity, task.acceleration, task.rates.jerk));
-  near.rates.rising = task.rates.falling;
-  if (!findRoute(route, near) || route.sign < 0.0)
-    return false;
-  builder.route(route, side, target, 0.0);
-  return true;
-}
-
 /// The motion of `task`, whose velocity lies in the direction `side`, where it must change its
 /// sign. Apart, because the other motions are quicker without its code.
 template <class Units>
 [[gnu::noinline]] void moveAndTurn(Builder<Units> &builder, const Task &task, double side,
                                    double target, double endVelocity) noexcept {
-  if (task.endVelocity == 0.0) { // by formulas
-    const Task back = {-task.velocity, -task.acceleration, -task.distance, 0.0, task.top, 0.0,
-                       task.rates,     task.noise};
-    const bool goesOn = settledVelocity(task.velocity, task.acceleration, task.rates.jerk) >= 0.0;
-    if (moveByTurn(builder, back, -side, target) ||
-        (!goesOn && moveByTurn(builder, task, side, target))) // it turns twice
-      return;
-  }
   Task both = task;
   both.bottom = -task.top;
   TurningRoute route;

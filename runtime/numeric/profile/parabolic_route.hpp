@@ -167,6 +167,18 @@ inline double blurOf(const VelocityChange &change, double velocity, double accel
   return 16.0 * kEpsilon * change.duration() * (exact::fabs(velocity) + swing);
 }
 
+/// How far a change from the state `from` may miss the task's distance: more is not rounding.
+inline double roundingOf(const Task &task, const State &from) noexcept {
+  return 4.0 * task.noise + 16.0 * kEpsilon * exact::fabs(from.position);
+}
+
+/// A change of velocity, in the state `from`, that ends with a short bend back lasts as long as the
+/// root of the last digits of the velocities says: makes the bend such that the change ends at the
+/// task's distance, which is `gap` farther, if so small a difference of velocities does it. False
+/// if not even nearly: then the change is of no use.
+bool bend(VelocityChange &change, const Task &task, const State &from, double gap,
+          double rounding) noexcept;
+
 /// Finds the fastest way; false when the limits of velocity do not allow one.
 bool findRoute(Route &route, const Task &task) noexcept;
 

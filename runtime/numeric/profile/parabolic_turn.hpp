@@ -7,19 +7,6 @@
 
 namespace stride::motion::parabolic {
 
-/// The soonest turn from velocities below 0 to standstill, with an acceleration there that goes on
-/// into positive velocities, in scaled units: at every velocity the acceleration is the greatest
-/// one that there can be.
-struct Turn {
-  Phase phases[3];     ///< Where a duration is 0, there is none.
-  double way;          ///< From the start to where the axis stands.
-  double acceleration; ///< There.
-
-  /// From a velocity that is negative, or that the acceleration `from` makes negative. While it is,
-  /// `rates.falling` holds, then `rates.rising`; and no velocity above `top` follows from the turn.
-  Turn(double velocity, double from, const Rates &rates, double top) noexcept;
-};
-
 /// The fastest change to a velocity without acceleration, through standstill where it lies between.
 /// `rates` are those of positive velocities; of negative ones they are the other way round. In
 /// scaled units.
@@ -56,6 +43,7 @@ struct TurningRoute {
 
   Phase head[kMost];           ///< What the axis does first; nothing but the first `headCount`.
   int headCount = 0;           ///< Valid entries of `head`.
+  int standing = 0;            ///< After so many of them the axis stands; 0: it does not.
   double cruise = 0.0;         ///< Time at `cruiseVelocity`, 0 for none.
   double cruiseVelocity = 0.0; ///< Mirrored as the phases are.
   double sign = 1.0;           ///< -1: all of it is mirrored.
