@@ -259,6 +259,8 @@ bool findRoute(Route &route, const Task &task) noexcept {
     return true;
   if (gap > 0.0)
     return findForward(route, task);
+  if (task.bottom == 0.0 && task.endVelocity == 0.0)
+    return false; // no stop is shorter than the direct one
   route.sign = -1.0;
   return findForward(route, task.mirrored());
 }
