@@ -88,11 +88,11 @@ PlanError result(bool representable) noexcept {
 /// sign. Apart, because the other motions are quicker without its code.
 template <class Units>
 [[gnu::noinline]] void moveAndTurn(Builder<Units> &builder, const Task &task, double side,
-                                   double target, double endVelocity) noexcept {
+                                   double target, double endVelocity, Direct direct) noexcept {
   Task both = task;
   both.bottom = -task.top;
   TurningRoute route;
-  findTurningRoute(route, both);
+  findTurningRoute(route, both, direct);
   builder.route(route, side, target, endVelocity);
 }
 
@@ -111,7 +111,8 @@ void moveFromRest(Builder<Units> &builder, double distance, double target, doubl
     builder.route(route, side, target, endVelocity);
     return;
   }
-  moveAndTurn(builder, task, side, target, endVelocity); // back to where the run-up must begin
+  moveAndTurn(builder, task, side, target, endVelocity,
+              Direct::Behind); // back to where the run-up must begin
 }
 
 /// The motion between different rates for rising and falling: they hold for the magnitude of the
@@ -125,6 +126,7 @@ void moveOnOneSide(Builder<Units> &builder, const State &state, double distance,
                      side * distance,       side * endVelocity,
                      limits.velocity,       0.0,
                      limits.ahead(),        noise};
+  Direct direct = Direct::Unknown;
   if (task.endVelocity >= 0.0 &&
       settledVelocity(task.velocity, task.acceleration, limits.jerk) >= 0.0) {
     Route route;
@@ -132,8 +134,9 @@ void moveOnOneSide(Builder<Units> &builder, const State &state, double distance,
       builder.route(route, side, target, endVelocity);
       return;
     }
+    direct = Direct::Behind; // else it would have been found
   }
-  moveAndTurn(builder, task, side, target, endVelocity);
+  moveAndTurn(builder, task, side, target, endVelocity, direct);
 }
 
 /// planParabolic where there is something to do and all can be represented.

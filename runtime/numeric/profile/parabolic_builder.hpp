@@ -93,20 +93,7 @@ public:
     forward(change.rest, sign);
   }
 
-  void route(const TurningRoute &route, double side, double target, double endVelocity) noexcept {
-    const double sign = side * route.sign;
-    for (int i = 0; i < route.headCount; ++i) {
-      forward(route.head[i], sign);
-      if (i + 1 == route.standing)
-        state_.velocity = 0.0; // without the rounding of the phases
-    }
-    if (route.cruise > 0.0) {
-      settle(sign * route.cruiseVelocity);
-      forward({route.cruise, 0.0, 0.0}, sign);
-    }
-    arrive(route.tail, sign, target, endVelocity);
-  }
-
+  template <class Route>
   void route(const Route &route, double side, double target, double endVelocity) noexcept {
     const double sign = side * route.sign;
     for (int i = 0; i < route.headCount; ++i) {

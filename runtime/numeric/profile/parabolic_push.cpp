@@ -109,30 +109,57 @@ struct Start {
   }
 };
 
+/// Rates with what is divided by them.
+struct Limits {
+  double jerk;
+  double rising;
+  double falling;
+  double perRising;
+  double perFalling;
+
+  explicit Limits(const Rates &rates) noexcept
+      : jerk(rates.jerk), rising(rates.rising), falling(rates.falling), perRising(1.0 / rising),
+        perFalling(1.0 / falling) {}
+
+  [[nodiscard]] Limits mirrored() const noexcept {
+    Limits other = *this;
+    other.rising = falling;
+    other.falling = rising;
+    other.perRising = perFalling;
+    other.perFalling = perRising;
+    return other;
+  }
+};
+
 /// The way by both sides, less the one that is asked for.
 class Equation {
 public:
-  Equation(double start, double end, double top, double way, const Rates &rates) noexcept
-      : jerk_(rates.jerk), rising_(rates.rising), falling_(rates.falling),
-        perRising_(1.0 / rising_), perFalling_(1.0 / falling_), start_(start), end_(end), top_(top),
-        way_(way) {}
+  Equation(double start, double end, double top, double way, const Limits &limits) noexcept
+      : jerk_(limits.jerk), rising_(limits.rising), falling_(limits.falling),
+        perRising_(limits.perRising), perFalling_(limits.perFalling), start_(start), end_(end),
+        top_(top), way_(way) {}
 
   /// Finds the push to above the velocity `lowest`, with at least the acceleration `from`; false if
   /// the way by the top velocity is too short.
   bool solve(Push &push, double lowest, double from) const noexcept {
     if (risingTo(top_) + fallingFrom(top_) < way_)
       return false;
+    solveBelowTop(push, lowest, from);
+    return true;
+  }
+
+  /// The same where that way is long enough.
+  void solveBelowTop(Push &push, double lowest, double from) const noexcept {
     const double full = start_ + rising_ * rising_; // the velocity of a rising side of no hold
     if (full < top_ && (lowest >= full || at(rising_) < 0.0)) {
       push.rate = rising_;
       push.hold = (held(exact::larger(lowest, full)) - full) / (rising_ * jerk_);
-      return true;
+      return;
     }
     const double least = lowest - start_;
     const double most = exact::smaller(top_, full) - start_;
     push.rate = belowRising(exact::larger(from, least > 0.0 ? exact::sqrt(least) : 0.0),
                             most > 0.0 ? exact::sqrt(most) : 0.0);
-    return true;
   }
 
   /// Of a push that ends at `rate`, which is not held.
@@ -288,7 +315,7 @@ bool findPush(Push &push, const Task &task) noexcept {
   const double jerk = task.rates.jerk;
   const double from = task.acceleration;
   const double end = task.endVelocity * jerk;
-  const Equation equation(start.virtually, end, task.top * jerk, start.way, task.rates);
+  const Equation equation(start.virtually, end, task.top * jerk, start.way, Limits(task.rates));
   if (from < 0.0 && start.virtually > end) { // the axis may still slow down
     const double summit = summitOf(task, {0.0, task.velocity, from});
     const double last = summit < 0.0 && equation.at(summit) >= 0.0 ? summit : 0.0;
@@ -358,14 +385,7 @@ struct Fall {
 /// A task whose velocity passes standstill.
 class TurningEquation {
 public:
-  explicit TurningEquation(const Task &task) noexcept
-      : task_(task), start_(task), end_(task.endVelocity * task.rates.jerk),
-        top_(task.top * task.rates.jerk), edge_(edgeOf(task)),
-        rises_(start_.virtually < -edge_ && (task.acceleration < 0.0 || task.velocity < 0.0)),
-        falls_(end_ < -edge_), below_(start_.virtually, end_, exact::smaller(edge_, top_),
-                                      start_.way, task.rates.mirrored()),
-        above_(rises_ ? -edge_ : start_.virtually, falls_ ? -edge_ : end_, top_, wayAbove(),
-               task.rates) {}
+  explicit TurningEquation(const Task &task) noexcept : TurningEquation(task, Limits(task.rates)) {}
 
   bool solve(TurningPush &push) const noexcept {
     const double from = task_.acceleration;
@@ -373,8 +393,10 @@ public:
       return true;
     double lowest = exact::larger(start_.settled, end_);
     if (rises_ || falls_) {
-      if (lowest < exact::smaller(edge_, top_) && below_.solve(push, lowest, from))
+      if (lowest < exact::smaller(edge_, top_) && rising_ + falling_ >= start_.way) {
+        below_.solveBelowTop(push, lowest, from);
         return true;
+      }
       if (!(edge_ < top_))
         return false;
       lowest = exact::larger(lowest, edge_);
@@ -390,14 +412,16 @@ public:
   }
 
 private:
-  [[nodiscard]] double wayAbove() const noexcept {
-    double way = start_.way;
-    if (rises_)
-      way -= below_.risingTo(edge_);
-    if (falls_)
-      way -= below_.fallingFrom(edge_);
-    return way;
-  }
+  TurningEquation(const Task &task, const Limits &limits) noexcept
+      : task_(task), start_(task), end_(task.endVelocity * limits.jerk),
+        top_(task.top * limits.jerk), edge_(edgeOf(task)),
+        rises_(start_.virtually < -edge_ && (task.acceleration < 0.0 || task.velocity < 0.0)),
+        falls_(end_ < -edge_),
+        below_(start_.virtually, end_, exact::smaller(edge_, top_), start_.way, limits.mirrored()),
+        rising_(rises_ || falls_ ? below_.risingTo(exact::smaller(edge_, top_)) : 0.0),
+        falling_(rises_ || falls_ ? below_.fallingFrom(exact::smaller(edge_, top_)) : 0.0),
+        above_(rises_ ? -edge_ : start_.virtually, falls_ ? -edge_ : end_, top_,
+               start_.way - (rises_ ? rising_ : 0.0) - (falls_ ? falling_ : 0.0), limits) {}
 
   /// Finds a push that ends while the axis still slows down; false if none gets far enough.
   bool solveSlowing(Push &push) const noexcept {
@@ -436,6 +460,8 @@ private:
   bool rises_;  ///< Whether standstill changes the rising side.
   bool falls_;
   Equation below_;
+  double rising_; ///< The ways of both sides at the edge, or at the top velocity, if that is less.
+  double falling_;
   Equation above_;
 };
 

@@ -112,17 +112,17 @@ private:
   }
 };
 
-/// How to reach a place with a velocity.
-struct Route {
-  Phase head[3];               ///< What the axis does first; nothing but the first `headCount`.
-  State ends[3];               ///< Of these phases; each position counts from the phase's begin.
+/// How to reach a place with a velocity: some phases, a cruise, a change to the end velocity.
+template <class Change, int kMost> struct RouteOf {
+  Phase head[kMost];           ///< What the axis does first; nothing but the first `headCount`.
+  State ends[kMost];           ///< Of these phases; each position counts from the phase's begin.
   int headCount = 0;           ///< Valid entries of `head` and `ends`.
   double cruise = 0.0;         ///< Time at `cruiseVelocity`, 0 for none.
   double cruiseVelocity = 0.0; ///< Mirrored as the phases are.
   double sign = 1.0;           ///< -1: all of it is mirrored.
-  VelocityChange tail;         ///< To the end velocity; ends at the target.
+  Change tail;                 ///< To the end velocity; ends at the target.
 
-  Route() noexcept {} // `head`, `ends` and `tail` are assigned
+  RouteOf() noexcept {} // `head`, `ends` and `tail` are assigned
 
   /// The axis, which is in `state`, first does this, too; then it is in that state.
   void add(const Phase &phase, State &state) noexcept {
@@ -134,6 +134,9 @@ struct Route {
     state.acceleration = next.acceleration;
   }
 };
+
+/// A way on which the rates do not change.
+using Route = RouteOf<VelocityChange, 3>;
 
 /// A task in one dimension, in scaled units: from position 0 to `distance`.
 struct Task {

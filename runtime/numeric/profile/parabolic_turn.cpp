@@ -52,9 +52,15 @@ double durationWithin(const Task &task, const State &from, const Phase &phase) n
   return bracketedRoot(missing, 0.0, phase.duration);
 }
 
-void add(TurningRoute &route, const Phase &phase, State &state) noexcept {
-  route.head[route.headCount++] = phase;
-  state = after(state, phase);
+void changeFrom(TurningRoute &route, const State &state, const Task &task) noexcept {
+  route.tail.set(state.velocity, state.acceleration, task.endVelocity, task.rates);
+}
+
+/// The axis, in `state`, stands: without the rounding of the phases.
+void stand(TurningRoute &route, State &state) noexcept {
+  state.velocity = 0.0;
+  if (route.headCount > 0)
+    route.ends[route.headCount - 1].velocity = 0.0;
 }
 
 /// The change to the end velocity from `end`, where the head of the route ends, leads `gap` beyond
@@ -74,8 +80,8 @@ bool mend(TurningRoute &route, const Task &task, const State &end, double gap) n
 
 /// Goes on with a part of `phase`, and then changes to the end velocity.
 void leave(TurningRoute &route, const Task &task, State state, const Phase &phase) noexcept {
-  add(route, partOf(phase, state, durationWithin(task, state, phase)), state);
-  route.tail = changeFrom(state, task);
+  route.add(partOf(phase, state, durationWithin(task, state, phase)), state);
+  changeFrom(route, state, task);
   (void)mend(route, task, state, reach(state, task) - task.distance);
 }
 
@@ -96,7 +102,7 @@ bool push(TurningRoute &route, const Task &task, State &state, const Phase &phas
     leave(route, task, state, phase);
     return true;
   }
-  add(route, phase, state);
+  route.add(phase, state);
   return false;
 }
 
@@ -129,7 +135,7 @@ double goByPush(TurningRoute &route, const Task &task, const TurningPush &push,
                 State &end) noexcept {
   const Rates &rates = task.rates;
   State state = {0.0, task.velocity, task.acceleration};
-  route.headCount = route.standing = 0;
+  route.headCount = 0;
   if (push.passes) {
     const double weaker = exact::smaller(rates.rising, rates.falling);
     const double jerked =
@@ -139,16 +145,15 @@ double goByPush(TurningRoute &route, const Task &task, const TurningPush &push,
                 rates);
     for (const Phase &phase : lead)
       if (phase.duration > 0.0)
-        add(route, phase, state);
-    state.velocity = 0.0;
-    route.standing = route.headCount;
+        route.add(phase, state);
+    stand(route, state);
   }
   const double time = (push.rate - state.acceleration) / rates.jerk;
   if (time > 0.0)
-    add(route, {time, rates.jerk, push.rate}, state);
+    route.add({time, rates.jerk, push.rate}, state);
   if (push.hold > 0.0)
-    add(route, {push.hold, 0.0, push.rate}, state);
-  route.tail = changeFrom(state, task);
+    route.add({push.hold, 0.0, push.rate}, state);
+  changeFrom(route, state, task);
   end = state;
   return state.position +
          route.tail.distance(state.velocity, state.acceleration, task.endVelocity) - task.distance;
@@ -180,7 +185,7 @@ bool goExactlyByPush(TurningRoute &route, const Task &task, TurningPush push) no
 /// Goes on from the top velocity; returns how far that is short of the task's distance.
 double cruise(TurningRoute &route, const Task &task, double position) noexcept {
   const State state = {position, task.top, 0.0};
-  route.tail = changeFrom(state, task);
+  changeFrom(route, state, task);
   const double missing =
       task.distance - (position + route.tail.distance(task.top, 0.0, task.endVelocity));
   if (missing > task.noise) {
@@ -197,12 +202,11 @@ bool goByTop(TurningRoute &route, const Task &task) noexcept {
   const auto go = [&](const Phase(&phases)[3]) noexcept {
     for (const Phase &phase : phases)
       if (phase.duration > 0.0)
-        add(route, phase, state);
+        route.add(phase, state);
   };
   if (upward.turns) {
     go(upward.lead);
-    state.velocity = 0.0;
-    route.standing = route.headCount;
+    stand(route, state);
   }
   go(upward.rest.phases);
   return cruise(route, task, state.position) >= -16.0 * task.noise;
@@ -212,13 +216,12 @@ bool goByTop(TurningRoute &route, const Task &task) noexcept {
 void search(TurningRoute &route, const Task &task) noexcept {
   const TurningChange upward(task.velocity, task.acceleration, task.top, task.rates);
   State state = {0.0, task.velocity, task.acceleration};
-  route.headCount = route.standing = 0;
+  route.headCount = 0;
   if (upward.turns) {
     for (const Phase &phase : upward.lead)
       if (push(route, task, state, phase))
         return;
-    state.velocity = 0.0;
-    route.standing = route.headCount;
+    stand(route, state);
   }
   for (const Phase &phase : upward.rest.phases)
     if (push(route, task, state, phase))
@@ -239,7 +242,9 @@ void goForward(TurningRoute &route, const Task &task) noexcept {
 
 } // namespace
 
-TurningChange::TurningChange(double velocity, double from, double to, const Rates &rates) noexcept {
+void TurningChange::set(double velocity, double from, double to, const Rates &rates) noexcept {
+  acceleration = 0.0;
+  turns = false;
   const double sign = to > settledVelocity(velocity, from, rates.jerk) ? 1.0 : -1.0;
   change(sign, sign * velocity, sign * from, sign * to, rates);
 }
@@ -275,12 +280,16 @@ double TurningChange::distance(double velocity, double from, double to) const no
   return state.position + rest.distance(0.0, acceleration, to);
 }
 
-void findTurningRoute(TurningRoute &route, const Task &task) noexcept {
+void findTurningRoute(TurningRoute &route, const Task &task, Direct direct) noexcept {
   const State start = {0.0, task.velocity, task.acceleration};
-  route.headCount = route.standing = 0;
+  route.headCount = 0;
   route.cruise = 0.0;
-  route.sign = 1.0;
-  route.tail = changeFrom(start, task);
+  route.sign = -1.0;
+  if (direct == Direct::Behind) {
+    goForward(route, fromBehind(task));
+    return;
+  }
+  changeFrom(route, start, task);
   const double gap =
       task.distance - route.tail.distance(task.velocity, task.acceleration, task.endVelocity);
   const double swing = task.acceleration * (task.acceleration / task.rates.jerk);
@@ -288,12 +297,12 @@ void findTurningRoute(TurningRoute &route, const Task &task) noexcept {
       16.0 * kEpsilon * route.tail.duration() * (exact::fabs(task.velocity) + swing);
   if (!(exact::fabs(gap) > task.noise + blur))
     return;
-  if (gap > 0.0) {
-    goForward(route, task);
+  if (gap < 0.0) {
+    goForward(route, fromBehind(task));
     return;
   }
-  route.sign = -1.0;
-  goForward(route, fromBehind(task));
+  route.sign = 1.0;
+  goForward(route, task);
 }
 
 } // namespace stride::motion::parabolic

@@ -17,7 +17,11 @@ struct TurningChange {
   bool turns = false;        ///< Whether there is a `lead`.
 
   TurningChange() noexcept {} // `lead` is assigned where it is used
-  TurningChange(double velocity, double from, double to, const Rates &rates) noexcept;
+  TurningChange(double velocity, double from, double to, const Rates &rates) noexcept {
+    set(velocity, from, to, rates);
+  }
+
+  void set(double velocity, double from, double to, const Rates &rates) noexcept;
 
   /// The way from the beginning to the end, where the velocity is `to`.
   [[nodiscard]] double distance(double velocity, double from, double to) const noexcept;
@@ -37,24 +41,16 @@ private:
   void change(double sign, double velocity, double from, double to, const Rates &rates) noexcept;
 };
 
-/// How to reach a place with a velocity, through standstill.
-struct TurningRoute {
-  static constexpr int kMost = 7; ///< Of a change, and a part of a phase.
+/// A way through standstill: a change, and a part of a phase, first.
+using TurningRoute = RouteOf<TurningChange, 7>;
 
-  Phase head[kMost];           ///< What the axis does first; nothing but the first `headCount`.
-  int headCount = 0;           ///< Valid entries of `head`.
-  int standing = 0;            ///< After so many of them the axis stands; 0: it does not.
-  double cruise = 0.0;         ///< Time at `cruiseVelocity`, 0 for none.
-  double cruiseVelocity = 0.0; ///< Mirrored as the phases are.
-  double sign = 1.0;           ///< -1: all of it is mirrored.
-  TurningChange tail;          ///< To the end velocity; ends at the target.
-
-  TurningRoute() noexcept {} // `head` is assigned
-};
+/// What is known of where the direct change to the end velocity ends.
+enum class Direct : uint8_t { Unknown, Behind };
 
 /// Finds the fastest way; `rates` of the task are those of positive velocities, and `top` is the
-/// greatest magnitude of the velocity, above 0.
-void findTurningRoute(TurningRoute &route, const Task &task) noexcept;
+/// greatest magnitude of the velocity, above 0. `direct` Behind: the direct change ends beyond the
+/// target, by more than rounding.
+void findTurningRoute(TurningRoute &route, const Task &task, Direct direct) noexcept;
 
 } // namespace stride::motion::parabolic
 
