@@ -111,8 +111,8 @@ void moveFromRest(Builder<Units> &builder, double distance, double target, doubl
     builder.route(route, side, target, endVelocity);
     return;
   }
-  moveAndTurn(builder, task, side, target, endVelocity,
-              Direct::Behind); // back to where the run-up must begin
+  // Back to where the run-up must begin.
+  moveAndTurn(builder, task, side, target, endVelocity, Direct::Behind);
 }
 
 /// The motion between different rates for rising and falling: they hold for the magnitude of the

@@ -281,14 +281,18 @@ double TurningChange::distance(double velocity, double from, double to) const no
 }
 
 void findTurningRoute(TurningRoute &route, const Task &task, Direct direct) noexcept {
-  const State start = {0.0, task.velocity, task.acceleration};
+  const auto goBack = [&] {
+    route.sign = -1.0;
+    goForward(route, fromBehind(task));
+  };
   route.headCount = 0;
   route.cruise = 0.0;
-  route.sign = -1.0;
+  route.sign = 1.0;
   if (direct == Direct::Behind) {
-    goForward(route, fromBehind(task));
+    goBack();
     return;
   }
+  const State start = {0.0, task.velocity, task.acceleration};
   changeFrom(route, start, task);
   const double gap =
       task.distance - route.tail.distance(task.velocity, task.acceleration, task.endVelocity);
@@ -297,12 +301,10 @@ void findTurningRoute(TurningRoute &route, const Task &task, Direct direct) noex
       16.0 * kEpsilon * route.tail.duration() * (exact::fabs(task.velocity) + swing);
   if (!(exact::fabs(gap) > task.noise + blur))
     return;
-  if (gap < 0.0) {
-    goForward(route, fromBehind(task));
-    return;
-  }
-  route.sign = 1.0;
-  goForward(route, task);
+  if (gap > 0.0)
+    goForward(route, task);
+  else
+    goBack();
 }
 
 } // namespace stride::motion::parabolic
