@@ -458,8 +458,8 @@ TEST(ParabolicProperty, AllScales) {
 TEST(ParabolicProperty, ManyScalesToAVelocity) {
   Random random(37);
   for (int i = 0; i < 50000; ++i) {
-    Problem p = problemOfScales(random, 2.5, 1);
-    p.endVelocity = random.sign() * random.magnitude(-2.5, 0) * p.limits.velocity;
+    Problem p = problemOfScales(random, 4, 1);
+    p.endVelocity = random.sign() * random.magnitude(-4, 0) * p.limits.velocity;
     Profile profile;
     ASSERT_EQ(planParabolic(profile, p.start, p.target, p.endVelocity, p.limits), PlanError::None)
         << p;

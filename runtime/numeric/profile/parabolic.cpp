@@ -84,50 +84,15 @@ PlanError result(bool representable) noexcept {
   return representable ? PlanError::None : PlanError::Unrepresentable;
 }
 
-/// The motion of `task` to rest, to which the axis must turn around into the direction `side`.
-/// False if there is none.
-template <class Units>
-bool moveByTurn(Builder<Units> &builder, const Task &task, double side, double target) noexcept {
-  const Turn turn(task.velocity, task.acceleration, task.rates, task.top);
-  Task rest = task;
-  rest.velocity = 0.0;
-  rest.acceleration = turn.acceleration;
-  rest.distance -= turn.way;
-  Route route;
-  if (findRoute(route, rest)) {
-    builder.turn(turn, side);
-    builder.route(route, side, target, 0.0);
-    return true;
-  }
-  // It is so near that the turn is hardly more than the way back to rest: the acceleration at
-  // standstill is less than that of the turn, and falls from there on.
-  Task near = task;
-  near.bottom =
-      exact::smaller(-task.top, settledVelocity(task.velocity, task.acceleration, task.rates.jerk));
-  near.rates.rising = task.rates.falling;
-  if (!findRoute(route, near) || route.sign < 0.0)
-    return false;
-  builder.route(route, side, target, 0.0);
-  return true;
-}
-
 /// The motion of `task`, whose velocity lies in the direction `side`, where it must change its
 /// sign. Apart, because the other motions are quicker without its code.
 template <class Units>
 [[gnu::noinline]] void moveAndTurn(Builder<Units> &builder, const Task &task, double side,
-                                   double target, double endVelocity) noexcept {
-  if (task.endVelocity == 0.0) { // by formulas
-    const Task back = {-task.velocity, -task.acceleration, -task.distance, 0.0, task.top, 0.0,
-                       task.rates,     task.noise};
-    const bool goesOn = settledVelocity(task.velocity, task.acceleration, task.rates.jerk) >= 0.0;
-    if (moveByTurn(builder, back, -side, target) ||
-        (!goesOn && moveByTurn(builder, task, side, target))) // it turns twice
-      return;
-  }
+                                   double target, double endVelocity, Direct direct) noexcept {
   Task both = task;
   both.bottom = -task.top;
   TurningRoute route;
-  findTurningRoute(route, both);
+  findTurningRoute(route, both, direct);
   builder.route(route, side, target, endVelocity);
 }
 
@@ -146,7 +111,8 @@ void moveFromRest(Builder<Units> &builder, double distance, double target, doubl
     builder.route(route, side, target, endVelocity);
     return;
   }
-  moveAndTurn(builder, task, side, target, endVelocity); // back to where the run-up must begin
+  // Back to where the run-up must begin.
+  moveAndTurn(builder, task, side, target, endVelocity, Direct::Behind);
 }
 
 /// The motion between different rates for rising and falling: they hold for the magnitude of the
@@ -160,6 +126,7 @@ void moveOnOneSide(Builder<Units> &builder, const State &state, double distance,
                      side * distance,       side * endVelocity,
                      limits.velocity,       0.0,
                      limits.ahead(),        noise};
+  Direct direct = Direct::Unknown;
   if (task.endVelocity >= 0.0 &&
       settledVelocity(task.velocity, task.acceleration, limits.jerk) >= 0.0) {
     Route route;
@@ -167,8 +134,9 @@ void moveOnOneSide(Builder<Units> &builder, const State &state, double distance,
       builder.route(route, side, target, endVelocity);
       return;
     }
+    direct = Direct::Behind; // else it would have been found
   }
-  moveAndTurn(builder, task, side, target, endVelocity);
+  moveAndTurn(builder, task, side, target, endVelocity, direct);
 }
 
 /// planParabolic where there is something to do and all can be represented.

@@ -84,13 +84,6 @@ public:
   /// The axis is at rest now, or moves at a constant velocity: without the rounding of the phases.
   void settle(double velocity) noexcept { state_ = {0.0, velocity, 0.0}; }
 
-  /// Turns around into the direction `sign`, and stands in that instant.
-  void turn(const Turn &turn, double sign) noexcept {
-    for (const Phase &phase : turn.phases)
-      forward(phase, sign);
-    state_ = {0.0, 0.0, sign * turn.acceleration};
-  }
-
   void forward(const TurningChange &change, double sign) noexcept {
     if (change.turns) {
       for (const Phase &phase : change.lead)
@@ -100,17 +93,7 @@ public:
     forward(change.rest, sign);
   }
 
-  void route(const TurningRoute &route, double side, double target, double endVelocity) noexcept {
-    const double sign = side * route.sign;
-    for (int i = 0; i < route.headCount; ++i)
-      forward(route.head[i], sign);
-    if (route.cruise > 0.0) {
-      settle(sign * route.cruiseVelocity);
-      forward({route.cruise, 0.0, 0.0}, sign);
-    }
-    arrive(route.tail, sign, target, endVelocity);
-  }
-
+  template <class Route>
   void route(const Route &route, double side, double target, double endVelocity) noexcept {
     const double sign = side * route.sign;
     for (int i = 0; i < route.headCount; ++i) {

@@ -26,6 +26,21 @@ double summitOf(const Task &task, const State &from) noexcept;
 /// top velocity does.
 bool findPush(Push &push, const Task &task) noexcept;
 
+/// A push of a task whose velocity passes standstill, where its rates change sides.
+struct TurningPush : Push {
+  bool passes = false; ///< First the axis turns to standstill; the push begins there.
+};
+
+/// The same as isRegular, for findTurningPush: the rates of the task are those of positive
+/// velocities, and belong to magnitudes.
+bool isRegularTurn(const Task &task) noexcept;
+
+/// The same as summitOf, also where a task is not regular.
+double turningSummit(const Task &task, const State &from) noexcept;
+
+/// The same as findPush: the first push of all that reach the target.
+bool findTurningPush(TurningPush &push, const Task &task) noexcept;
+
 } // namespace stride::motion::parabolic
 
 #endif

@@ -148,6 +148,16 @@ Answer findByFormulas(Route &route, const Task &task) noexcept {
   return cruise(route, task, missing) ? Answer::Found : Answer::None;
 }
 
+/// Goes on with a part of `phase`, and then changes to the end velocity.
+void leave(Route &route, const Task &task, State state, const Phase &phase) noexcept {
+  route.add(partOf(phase, state, durationWithin(task, state, phase)), state);
+  route.tail = task.changeFrom(state);
+  const double gap = task.reach(state) - task.distance;
+  const double rounding = roundingOf(task, state);
+  if (exact::fabs(gap) > rounding && task.endVelocity != 0.0)
+    (void)bend(route.tail, task, state, -gap, rounding);
+}
+
 /// Finds the fastest way for a task that must go beyond where the direct change of velocity ends
 /// (distance > reach of the start): towards the top velocity until the change to the end velocity
 /// is due. False when the top velocity leads no farther.
@@ -169,16 +179,12 @@ bool findForward(Route &route, const Task &task) noexcept {
       const double time = (summit - state.acceleration) / phase.jerk;
       const Phase rise = partOf(phase, state, time);
       if (summit < 0.0 && time > 0.0 && task.reach(after(state, rise)) >= task.distance) {
-        const Phase part = partOf(phase, state, durationWithin(task, state, rise));
-        route.add(part, state);
-        route.tail = task.changeFrom(state);
+        leave(route, task, state, rise);
         return true;
       }
     }
     if (task.reach(next) >= task.distance) {
-      const Phase part = partOf(phase, state, durationWithin(task, state, phase));
-      route.add(part, state);
-      route.tail = task.changeFrom(state);
+      leave(route, task, state, phase);
       return true;
     }
     route.add(phase, state);
@@ -190,37 +196,48 @@ bool findForward(Route &route, const Task &task) noexcept {
   return missing <= task.noise || cruise(route, task, missing);
 }
 
-/// A direct change of velocity that ends with a short bend back lasts as long as the root of the
-/// last digits of the velocities says: makes the bend such that the change ends at the task's
-/// distance, which is `gap` farther, if so small a difference of velocities does it.
-bool bend(VelocityChange &change, const Task &task, double gap, double rounding) noexcept {
+} // namespace
+
+bool bend(VelocityChange &change, const Task &task, const State &from, double gap,
+          double rounding) noexcept {
   const double jerk = task.rates.jerk;
-  const double swing = task.acceleration * (task.acceleration / jerk);
+  const double swing = from.acceleration * (from.acceleration / jerk);
   const double digits =
-      16.0 * kEpsilon * (exact::fabs(task.velocity) + exact::fabs(task.endVelocity) + swing);
+      16.0 * kEpsilon * (exact::fabs(from.velocity) + exact::fabs(task.endVelocity) + swing);
   const double end = task.endVelocity;
-  if (!(gap * gap * jerk <= 16.0 * end * end * digits) || change.phases[1].duration > 0.0)
+  const auto missing = [&]() noexcept {
+    return (task.distance - from.position) - change.distance(from.velocity, from.acceleration, end);
+  };
+  Phase &hold = change.phases[1];
+  if (hold.duration > 0.0) {
+    const double before =
+        end - hold.acceleration * (0.5 * change.phases[2].duration + hold.duration);
+    const double more = gap / before;
+    if (!(exact::fabs(more * hold.acceleration) <= digits && hold.duration + more >= 0.0))
+      return false;
+    hold.duration += more;
+    return exact::fabs(missing()) <= rounding;
+  }
+  if (!(gap * gap * jerk <= 16.0 * end * end * digits))
     return false;
   const double sign = change.phases[0].jerk < 0.0 ? -1.0 : 1.0;
   const double before = sign * change.phases[0].acceleration;
   double peak = before;
   for (int i = 0; i < 3; ++i) {
     peak += 0.5 * jerk * (gap / end);
-    const double time = (peak - sign * task.acceleration) / jerk;
+    const double time = (peak - sign * from.acceleration) / jerk;
     if (!(peak >= 0.0 && time >= 0.0 &&
           exact::fabs(peak * peak - before * before) <= jerk * digits))
       return false;
     change.phases[0] = {time, sign * jerk, sign * peak};
     change.phases[1] = {0.0, 0.0, sign * peak};
     change.phases[2] = {peak / jerk, -sign * jerk, 0.0};
-    gap = task.distance - change.distance(task.velocity, task.acceleration, end);
+    gap = missing();
     if (exact::fabs(gap) <= rounding)
       return true;
   }
   return false;
 }
-
-} // namespace
 
 bool findRoute(Route &route, const Task &task) noexcept {
   const State start = {0.0, task.velocity, task.acceleration};
@@ -238,10 +255,12 @@ bool findRoute(Route &route, const Task &task) noexcept {
     route.tail = task.changeFrom(start);
     return true;
   }
-  if (task.endVelocity != 0.0 && bend(route.tail, task, gap, rounding))
+  if (task.endVelocity != 0.0 && bend(route.tail, task, start, gap, rounding))
     return true;
   if (gap > 0.0)
     return findForward(route, task);
+  if (task.bottom == 0.0 && task.endVelocity == 0.0)
+    return false; // no stop is shorter than the direct one
   route.sign = -1.0;
   return findForward(route, task.mirrored());
 }

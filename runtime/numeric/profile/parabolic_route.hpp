@@ -112,17 +112,17 @@ private:
   }
 };
 
-/// How to reach a place with a velocity.
-struct Route {
-  Phase head[3];               ///< What the axis does first; nothing but the first `headCount`.
-  State ends[3];               ///< Of these phases; each position counts from the phase's begin.
+/// How to reach a place with a velocity: some phases, a cruise, a change to the end velocity.
+template <class Change, int kMost> struct RouteOf {
+  Phase head[kMost];           ///< What the axis does first; nothing but the first `headCount`.
+  State ends[kMost];           ///< Of these phases; each position counts from the phase's begin.
   int headCount = 0;           ///< Valid entries of `head` and `ends`.
   double cruise = 0.0;         ///< Time at `cruiseVelocity`, 0 for none.
   double cruiseVelocity = 0.0; ///< Mirrored as the phases are.
   double sign = 1.0;           ///< -1: all of it is mirrored.
-  VelocityChange tail;         ///< To the end velocity; ends at the target.
+  Change tail;                 ///< To the end velocity; ends at the target.
 
-  Route() noexcept {} // `head`, `ends` and `tail` are assigned
+  RouteOf() noexcept {} // `head`, `ends` and `tail` are assigned
 
   /// The axis, which is in `state`, first does this, too; then it is in that state.
   void add(const Phase &phase, State &state) noexcept {
@@ -134,6 +134,9 @@ struct Route {
     state.acceleration = next.acceleration;
   }
 };
+
+/// A way on which the rates do not change.
+using Route = RouteOf<VelocityChange, 3>;
 
 /// A task in one dimension, in scaled units: from position 0 to `distance`.
 struct Task {
@@ -166,6 +169,18 @@ inline double blurOf(const VelocityChange &change, double velocity, double accel
   const double swing = acceleration * (acceleration / jerk);
   return 16.0 * kEpsilon * change.duration() * (exact::fabs(velocity) + swing);
 }
+
+/// How far a change from the state `from` may miss the task's distance: more is not rounding.
+inline double roundingOf(const Task &task, const State &from) noexcept {
+  return 4.0 * task.noise + 16.0 * kEpsilon * exact::fabs(from.position);
+}
+
+/// A change of velocity, in the state `from`, that ends with a short bend back lasts as long as the
+/// root of the last digits of the velocities says: makes the bend such that the change ends at the
+/// task's distance, which is `gap` farther, if so small a difference of velocities does it. False
+/// if not even nearly: then the change is of no use.
+bool bend(VelocityChange &change, const Task &task, const State &from, double gap,
+          double rounding) noexcept;
 
 /// Finds the fastest way; false when the limits of velocity do not allow one.
 bool findRoute(Route &route, const Task &task) noexcept;

@@ -1,6 +1,7 @@
 #include "runtime/numeric/profile/parabolic_turn.hpp"
 
 #include "runtime/numeric/profile/bracketed_root.hpp"
+#include "runtime/numeric/profile/parabolic_push.hpp"
 
 // While the velocity v is below 0, it may rise with the deceleration D, above with the acceleration
 // A, and at standstill, which belongs to both, with the weaker one, m. Over the velocity, whoever
@@ -51,37 +52,37 @@ double durationWithin(const Task &task, const State &from, const Phase &phase) n
   return bracketedRoot(missing, 0.0, phase.duration);
 }
 
-/// How long the axis stays in `phase`, which it begins in `from` while it still slows down, to
-/// reach farthest before longer ones reach less far; 0 if there is no such time. See
-/// parabolic_push.cpp: the reach grows with the sign of s + a^2 + az/2.
-double timeToSummit(const Task &task, const State &from, const Phase &phase) noexcept {
-  const double jerk = phase.jerk;
-  const double settled = jerk * from.velocity - 0.5 * from.acceleration * from.acceleration;
-  const auto shrinks = [&](double duration) noexcept {
-    const State state = after(from, partOf(phase, from, duration));
-    const double rate = state.acceleration;
-    return -(settled + rate * rate + 0.5 * rate * changeFrom(state, task).peak());
-  };
-  const double stronger = exact::larger(task.rates.rising, task.rates.falling);
-  if (!(settled < stronger * stronger * (1.0 / 16.0)) || !(shrinks(0.0) < 0.0))
-    return 0.0;
-  const double last = exact::smaller(-from.acceleration / jerk, phase.duration);
-  constexpr int kParts = 16; // it may grow again before the acceleration is 0
-  for (int i = 1; i <= kParts; ++i)
-    if (shrinks(last * i / kParts) >= 0.0)
-      return bracketedRoot(shrinks, last * (i - 1) / kParts, last * i / kParts);
-  return 0.0;
+void changeFrom(TurningRoute &route, const State &state, const Task &task) noexcept {
+  route.tail.set(state.velocity, state.acceleration, task.endVelocity, task.rates);
 }
 
-void add(TurningRoute &route, const Phase &phase, State &state) noexcept {
-  route.head[route.headCount++] = phase;
-  state = after(state, phase);
+/// The axis, in `state`, stands: without the rounding of the phases.
+void stand(TurningRoute &route, State &state) noexcept {
+  state.velocity = 0.0;
+  if (route.headCount > 0)
+    route.ends[route.headCount - 1].velocity = 0.0;
+}
+
+/// The change to the end velocity from `end`, where the head of the route ends, leads `gap` beyond
+/// the task's distance: mends that if it is rounding. False if it remains.
+bool mend(TurningRoute &route, const Task &task, const State &end, double gap) noexcept {
+  const double rounding = roundingOf(task, end);
+  if (exact::fabs(gap) <= rounding)
+    return true;
+  State from = end;
+  if (route.tail.turns) {
+    for (const Phase &phase : route.tail.lead)
+      from = after(from, phase);
+    from.velocity = 0.0;
+  }
+  return task.endVelocity != 0.0 && bend(route.tail.rest, task, from, -gap, rounding);
 }
 
 /// Goes on with a part of `phase`, and then changes to the end velocity.
 void leave(TurningRoute &route, const Task &task, State state, const Phase &phase) noexcept {
-  add(route, partOf(phase, state, durationWithin(task, state, phase)), state);
-  route.tail = changeFrom(state, task);
+  route.add(partOf(phase, state, durationWithin(task, state, phase)), state);
+  changeFrom(route, state, task);
+  (void)mend(route, task, state, reach(state, task) - task.distance);
 }
 
 /// Goes on with all of `phase`; or with a part that leads to the end, which is true.
@@ -89,8 +90,10 @@ bool push(TurningRoute &route, const Task &task, State &state, const Phase &phas
   if (!(phase.duration > 0.0))
     return false;
   if (phase.jerk > 0.0 && state.acceleration < 0.0) {
-    const Phase rise = partOf(phase, state, timeToSummit(task, state, phase));
-    if (rise.duration > 0.0 && reach(after(state, rise), task) >= task.distance) {
+    const double summit = turningSummit(task, state);
+    const double time = (summit - state.acceleration) / phase.jerk;
+    const Phase rise = partOf(phase, state, exact::smaller(time, phase.duration));
+    if (summit < 0.0 && time > 0.0 && reach(after(state, rise), task) >= task.distance) {
       leave(route, task, state, rise);
       return true;
     }
@@ -99,31 +102,8 @@ bool push(TurningRoute &route, const Task &task, State &state, const Phase &phas
     leave(route, task, state, phase);
     return true;
   }
-  add(route, phase, state);
+  route.add(phase, state);
   return false;
-}
-
-/// The way to beyond where the direct change ends.
-void goForward(TurningRoute &route, const Task &task) noexcept {
-  const TurningChange upward(task.velocity, task.acceleration, task.top, task.rates);
-  State state = {0.0, task.velocity, task.acceleration};
-  if (upward.turns) {
-    for (const Phase &phase : upward.lead)
-      if (push(route, task, state, phase))
-        return;
-    state.velocity = 0.0;
-  }
-  for (const Phase &phase : upward.rest.phases)
-    if (push(route, task, state, phase))
-      return;
-  state.velocity = task.top;
-  state.acceleration = 0.0;
-  route.tail = changeFrom(state, task);
-  const double missing = task.distance - reach(state, task);
-  if (missing > task.noise) {
-    route.cruise = missing / task.top;
-    route.cruiseVelocity = task.top;
-  }
 }
 
 /// The phases that end at standstill: the acceleration rises with the jerk to the rate of braking,
@@ -149,34 +129,122 @@ double brake(Phase (&phases)[3], double sign, double velocity, double from, doub
   return last;
 }
 
-} // namespace
-
-// Over the velocity, the acceleration first rises with the jerk to the rate of braking, and ends by
-// falling with the jerk to what may go on beyond standstill. Whoever has a greater acceleration at
-// each velocity is faster and farther at each time, so no other turn is sooner.
-Turn::Turn(double velocity, double from, const Rates &rates, double top) noexcept {
-  const double twice = 2.0 * rates.jerk;
-  // All squares of accelerations: what the jerk alone leads to at standstill, and what is allowed.
-  const double most = from * from - twice * velocity;
-  const double weaker = exact::smaller(rates.falling, rates.rising);
-  const double allowed = exact::smaller(weaker * weaker, twice * top * (1.0 - 8.0 * kEpsilon));
-  if (most > allowed) {
-    acceleration = brake(phases, 1.0, velocity, from, most, allowed, exact::sqrt(allowed), rates);
-  } else {
-    acceleration = exact::sqrt(most);
-    const bool falls = acceleration < from;
-    phases[0] = {exact::fabs(acceleration - from) / rates.jerk, falls ? -rates.jerk : rates.jerk,
-                 acceleration};
-    phases[1] = {0.0, 0.0, acceleration};
-    phases[2] = {0.0, -rates.jerk, acceleration};
+/// The way of a push and the change to the end velocity; `end` is where the push ends. Returns how
+/// far beyond the task's distance it leads.
+double goByPush(TurningRoute &route, const Task &task, const TurningPush &push,
+                State &end) noexcept {
+  const Rates &rates = task.rates;
+  State state = {0.0, task.velocity, task.acceleration};
+  route.headCount = 0;
+  if (push.passes) {
+    const double weaker = exact::smaller(rates.rising, rates.falling);
+    const double jerked =
+        state.acceleration * state.acceleration - 2.0 * rates.jerk * state.velocity;
+    Phase lead[3];
+    (void)brake(lead, 1.0, state.velocity, state.acceleration, jerked, weaker * weaker, weaker,
+                rates);
+    for (const Phase &phase : lead)
+      if (phase.duration > 0.0)
+        route.add(phase, state);
+    stand(route, state);
   }
-  State state = {0.0, velocity, from};
-  for (const Phase &phase : phases)
-    state = after(state, phase);
-  way = state.position;
+  const double time = (push.rate - state.acceleration) / rates.jerk;
+  if (time > 0.0)
+    route.add({time, rates.jerk, push.rate}, state);
+  if (push.hold > 0.0)
+    route.add({push.hold, 0.0, push.rate}, state);
+  changeFrom(route, state, task);
+  end = state;
+  return state.position +
+         route.tail.distance(state.velocity, state.acceleration, task.endVelocity) - task.distance;
 }
 
-TurningChange::TurningChange(double velocity, double from, double to, const Rates &rates) noexcept {
+/// The same, without the rounding of the formulas where it is more than that of the way. False if
+/// it remains.
+bool goExactlyByPush(TurningRoute &route, const Task &task, TurningPush push) noexcept {
+  State end;
+  double gap = goByPush(route, task, push, end);
+  for (int i = 0; i < 2 && exact::fabs(gap) > 0.25 * task.noise; ++i) {
+    // How the way grows with the push: see parabolic_push.cpp.
+    const double jerk = task.rates.jerk;
+    const double falling = route.tail.peak();
+    const double rate = end.acceleration;
+    const double growth =
+        (1.0 + rate / falling) * (end.velocity * jerk + 0.5 * rate * (rate + falling)) / jerk;
+    if (!(falling > 0.0 && growth > 0.0))
+      break;
+    if (push.hold > 0.0)
+      push.hold -= gap / growth;
+    else
+      push.rate -= 0.5 * jerk * (gap / growth);
+    gap = goByPush(route, task, push, end);
+  }
+  return mend(route, task, end, gap);
+}
+
+/// Goes on from the top velocity; returns how far that is short of the task's distance.
+double cruise(TurningRoute &route, const Task &task, double position) noexcept {
+  const State state = {position, task.top, 0.0};
+  changeFrom(route, state, task);
+  const double missing =
+      task.distance - (position + route.tail.distance(task.top, 0.0, task.endVelocity));
+  if (missing > task.noise) {
+    route.cruise = missing / task.top;
+    route.cruiseVelocity = task.top;
+  }
+  return missing;
+}
+
+/// The way by way of the top velocity. False if it leads too far.
+bool goByTop(TurningRoute &route, const Task &task) noexcept {
+  const TurningChange upward(task.velocity, task.acceleration, task.top, task.rates);
+  State state = {0.0, task.velocity, task.acceleration};
+  const auto go = [&](const Phase(&phases)[3]) noexcept {
+    for (const Phase &phase : phases)
+      if (phase.duration > 0.0)
+        route.add(phase, state);
+  };
+  if (upward.turns) {
+    go(upward.lead);
+    stand(route, state);
+  }
+  go(upward.rest.phases);
+  return cruise(route, task, state.position) >= -16.0 * task.noise;
+}
+
+/// The way to beyond where the direct change ends, by search along the way to the top velocity.
+void search(TurningRoute &route, const Task &task) noexcept {
+  const TurningChange upward(task.velocity, task.acceleration, task.top, task.rates);
+  State state = {0.0, task.velocity, task.acceleration};
+  route.headCount = 0;
+  if (upward.turns) {
+    for (const Phase &phase : upward.lead)
+      if (push(route, task, state, phase))
+        return;
+    stand(route, state);
+  }
+  for (const Phase &phase : upward.rest.phases)
+    if (push(route, task, state, phase))
+      return;
+  (void)cruise(route, task, state.position);
+}
+
+/// The way to beyond where the direct change ends.
+void goForward(TurningRoute &route, const Task &task) noexcept {
+  if (isRegularTurn(task)) {
+    TurningPush push;
+    if (findTurningPush(push, task) ? goExactlyByPush(route, task, push) : goByTop(route, task))
+      return;
+    route.cruise = 0.0;
+  }
+  search(route, task);
+}
+
+} // namespace
+
+void TurningChange::set(double velocity, double from, double to, const Rates &rates) noexcept {
+  acceleration = 0.0;
+  turns = false;
   const double sign = to > settledVelocity(velocity, from, rates.jerk) ? 1.0 : -1.0;
   change(sign, sign * velocity, sign * from, sign * to, rates);
 }
@@ -212,12 +280,20 @@ double TurningChange::distance(double velocity, double from, double to) const no
   return state.position + rest.distance(0.0, acceleration, to);
 }
 
-void findTurningRoute(TurningRoute &route, const Task &task) noexcept {
-  const State start = {0.0, task.velocity, task.acceleration};
+void findTurningRoute(TurningRoute &route, const Task &task, Direct direct) noexcept {
+  const auto goBack = [&] {
+    route.sign = -1.0;
+    goForward(route, fromBehind(task));
+  };
   route.headCount = 0;
   route.cruise = 0.0;
   route.sign = 1.0;
-  route.tail = changeFrom(start, task);
+  if (direct == Direct::Behind) {
+    goBack();
+    return;
+  }
+  const State start = {0.0, task.velocity, task.acceleration};
+  changeFrom(route, start, task);
   const double gap =
       task.distance - route.tail.distance(task.velocity, task.acceleration, task.endVelocity);
   const double swing = task.acceleration * (task.acceleration / task.rates.jerk);
@@ -225,12 +301,10 @@ void findTurningRoute(TurningRoute &route, const Task &task) noexcept {
       16.0 * kEpsilon * route.tail.duration() * (exact::fabs(task.velocity) + swing);
   if (!(exact::fabs(gap) > task.noise + blur))
     return;
-  if (gap > 0.0) {
+  if (gap > 0.0)
     goForward(route, task);
-    return;
-  }
-  route.sign = -1.0;
-  goForward(route, fromBehind(task));
+  else
+    goBack();
 }
 
 } // namespace stride::motion::parabolic

@@ -7,19 +7,6 @@
 
 namespace stride::motion::parabolic {
 
-/// The soonest turn from velocities below 0 to standstill, with an acceleration there that goes on
-/// into positive velocities, in scaled units: at every velocity the acceleration is the greatest
-/// one that there can be.
-struct Turn {
-  Phase phases[3];     ///< Where a duration is 0, there is none.
-  double way;          ///< From the start to where the axis stands.
-  double acceleration; ///< There.
-
-  /// From a velocity that is negative, or that the acceleration `from` makes negative. While it is,
-  /// `rates.falling` holds, then `rates.rising`; and no velocity above `top` follows from the turn.
-  Turn(double velocity, double from, const Rates &rates, double top) noexcept;
-};
-
 /// The fastest change to a velocity without acceleration, through standstill where it lies between.
 /// `rates` are those of positive velocities; of negative ones they are the other way round. In
 /// scaled units.
@@ -30,7 +17,11 @@ struct TurningChange {
   bool turns = false;        ///< Whether there is a `lead`.
 
   TurningChange() noexcept {} // `lead` is assigned where it is used
-  TurningChange(double velocity, double from, double to, const Rates &rates) noexcept;
+  TurningChange(double velocity, double from, double to, const Rates &rates) noexcept {
+    set(velocity, from, to, rates);
+  }
+
+  void set(double velocity, double from, double to, const Rates &rates) noexcept;
 
   /// The way from the beginning to the end, where the velocity is `to`.
   [[nodiscard]] double distance(double velocity, double from, double to) const noexcept;
@@ -50,23 +41,16 @@ private:
   void change(double sign, double velocity, double from, double to, const Rates &rates) noexcept;
 };
 
-/// How to reach a place with a velocity, through standstill.
-struct TurningRoute {
-  static constexpr int kMost = 7; ///< Of a change, and a part of a phase.
+/// A way through standstill: a change, and a part of a phase, first.
+using TurningRoute = RouteOf<TurningChange, 7>;
 
-  Phase head[kMost];           ///< What the axis does first; nothing but the first `headCount`.
-  int headCount = 0;           ///< Valid entries of `head`.
-  double cruise = 0.0;         ///< Time at `cruiseVelocity`, 0 for none.
-  double cruiseVelocity = 0.0; ///< Mirrored as the phases are.
-  double sign = 1.0;           ///< -1: all of it is mirrored.
-  TurningChange tail;          ///< To the end velocity; ends at the target.
-
-  TurningRoute() noexcept {} // `head` is assigned
-};
+/// What is known of where the direct change to the end velocity ends.
+enum class Direct : uint8_t { Unknown, Behind };
 
 /// Finds the fastest way; `rates` of the task are those of positive velocities, and `top` is the
-/// greatest magnitude of the velocity, above 0.
-void findTurningRoute(TurningRoute &route, const Task &task) noexcept;
+/// greatest magnitude of the velocity, above 0. `direct` Behind: the direct change ends beyond the
+/// target, by more than rounding.
+void findTurningRoute(TurningRoute &route, const Task &task, Direct direct) noexcept;
 
 } // namespace stride::motion::parabolic
 
