@@ -133,6 +133,9 @@ int explainCommand(const std::string &what) {
                       exception->title, trim(exception->text)));
     return 0;
   }
+  if (trim(what).empty())
+    return showError(Code::UnknownCode,
+                     "the code is empty: `stride explain --list` says which there are");
   return showError(
       Code::UnknownCode,
       fmt::format("there is no diagnostic, no exception and no SoftMotion error `{}`", what));

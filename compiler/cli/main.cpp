@@ -156,11 +156,12 @@ void declarePlot(CLI::App &app, Invocation &call) {
 void declareExplain(CLI::App &app, Invocation &call) {
   CLI::App *explain =
       app.add_subcommand("explain", "Explain a diagnostic, an exception or a SoftMotion error");
-  explain->add_option("CODE", call.code, "SE0203, SR0001, or a number or name of SMC_ERROR")
-      ->type_name("");
+  const CLI::Option *code =
+      explain->add_option("CODE", call.code, "SE0203, SR0001, or a number or name of SMC_ERROR")
+          ->type_name("");
   explain->add_flag("--list", call.listCodes, "List all codes");
-  explain->callback([&call] {
-    if (!call.listCodes && call.code.empty())
+  explain->callback([&call, code] {
+    if (!call.listCodes && code->count() == 0)
       throw CLI::RequiredError("CODE or --list");
     call.exitCode = call.listCodes ? explainList() : explainCommand(call.code);
   });

@@ -22,18 +22,6 @@ stride::Kind runtimeKind(const Type *type) {
                                    static_cast<unsigned>(stride::Kind::BOOL));
 }
 
-int64_t betweenTimes(int64_t value, stride::Kind from, stride::Kind to) {
-  using namespace stride::detail;
-  using stride::floorDivide;
-  auto ns =
-      static_cast<int64_t>(static_cast<uint64_t>(value) * static_cast<uint64_t>(unitNs(from)));
-  if (isDate(to) && (isDateAndTime(from) || isDate(from)))
-    ns = floorDivide(ns, kDayNs) * kDayNs;
-  else if (isTimeOfDay(to) && isDateAndTime(from))
-    ns -= floorDivide(ns, kDayNs) * kDayNs;
-  return floorDivide(ns, unitNs(to));
-}
-
 std::optional<ConstValue> toText(const ConstValue &value, const Type *from, const Type *to,
                                  Arena &arena) {
   char buffer[stride::text::kBufferSize];
@@ -106,7 +94,7 @@ std::optional<ConstValue> foldConversion(const ConstValue &value, const Type *fr
   if (isTimeOrDate(f) && isTimeOrDate(t))
     return f == t ? value
                   : integerValue(
-                        wrapTo(t, betweenTimes(value.integer, runtimeKind(f), runtimeKind(t))));
+                        stride::detail::timeToTime(runtimeKind(t), runtimeKind(f), value.integer));
   if (isTimeOrDate(f) && isReal(t)) {
     const auto wide = static_cast<double>(value.integer);
     return realValue(
@@ -115,10 +103,10 @@ std::optional<ConstValue> foldConversion(const ConstValue &value, const Type *fr
   if (isTimeOrDate(f) && isInteger(t))
     return integerValue(wrapTo(t, value.integer));
   if (isTimeOrDate(t) && value.kind == ConstKind::Real)
-    return bitWidth(t) == 32 ? integerValue(stride::convert<uint32_t>(value.real))
-                             : integerValue(stride::convert<int64_t>(value.real));
+    return integerValue(stride::detail::realToTime(runtimeKind(t), value.real));
   if (isTimeOrDate(t))
-    return integerValue(wrapTo(t, value.integer));
+    return integerValue(
+        stride::detail::integerToTime(runtimeKind(t), value.integer, isUnsigned64(f)));
   return convertConstant(value, from, to);
 }
 

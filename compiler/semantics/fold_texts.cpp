@@ -1,6 +1,7 @@
 #include "compiler/semantics/fold_texts.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace stc {
 
@@ -91,7 +92,12 @@ Units textAt(const FoldCall &call, size_t i) {
   return decode(call.arguments[i].value.text, call.arguments[0].type->kind == TypeKind::Wstring);
 }
 
-int64_t numberAt(const FoldCall &call, size_t i) { return call.arguments[i].value.integer; }
+/// A number of characters or a place; as in the runtime, an ULINT beyond LINT is LINT's largest
+/// value.
+int64_t numberAt(const FoldCall &call, size_t i) {
+  const int64_t n = call.arguments[i].value.integer;
+  return n < 0 && isUnsigned64(call.arguments[i].type) ? std::numeric_limits<int64_t>::max() : n;
+}
 
 /// The result, as long as its type allows.
 ConstValue cutToResult(const FoldCall &call, Units units) {

@@ -132,6 +132,9 @@ FileId Sources::addBytes(std::string name, std::string bytes) {
     bytes.erase(0, 3);
   if (!isUtf8(bytes))
     bytes = latin1ToUtf8(bytes);
+  // Lines of old Macintosh files end with CR only. As LF they are lines for all who read the text.
+  if (bytes.find('\r') != std::string::npos && bytes.find('\n') == std::string::npos)
+    std::replace(bytes.begin(), bytes.end(), '\r', '\n');
   return add(std::move(name), std::move(bytes));
 }
 

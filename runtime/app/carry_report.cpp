@@ -148,7 +148,8 @@ void CarryReport::visitFields(uint32_t owner, const std::string &path,
     if (field.renamed)
       add(keyed(Finding::Kind::Renamed),
           {Finding::Kind::Renamed, name(b, field.newMember), places, typeName(a, field.oldMember),
-           typeName(b, field.newMember), fmt::format("was {}", name(a, field.oldMember))});
+           typeName(b, field.newMember), fmt::format("was {}", name(a, field.oldMember)),
+           name(a, field.oldMember)});
     if (interesting(field.pair))
       visit(field.pair, name(b, field.newMember), places, key, false);
   }

@@ -34,11 +34,12 @@ struct Finding {
     UnionChanged,    ///< Kept are the bytes of the fields that did not change.
   };
   Kind kind;
-  std::string path;    ///< Of the first place.
-  uint64_t places = 1; ///< In how many instances and array elements.
-  std::string oldType; ///< Empty for Added.
-  std::string newType; ///< Empty for Dropped.
-  std::string detail;  ///< More words, or empty.
+  std::string path;      ///< Of the first place.
+  uint64_t places = 1;   ///< In how many instances and array elements.
+  std::string oldType;   ///< Empty for Added.
+  std::string newType;   ///< Empty for Dropped.
+  std::string detail;    ///< More words, or empty.
+  std::string oldPath{}; ///< Renamed: what it was, in the first place.
 };
 
 /// True for the kinds that make Verdict::Losses.

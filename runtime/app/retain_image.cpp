@@ -187,6 +187,19 @@ std::string firstElement(const std::string &path) {
   return out;
 }
 
+/// `A[1..3,0..5].x` -> `a[].x`: the same of all builds, whatever the bounds of their arrays.
+std::string withoutIndices(const std::string &path) {
+  std::string out;
+  bool inside = false;
+  for (const char c : common::lowerCase(path)) {
+    inside = inside && c != ']';
+    if (!inside)
+      out += c;
+    inside = inside || c == '[';
+  }
+  return out;
+}
+
 bool exists(const SymbolTable &symbols, const std::string &path) {
   try {
     static_cast<void>(symbols.resolve(firstElement(path)));
@@ -234,7 +247,13 @@ public:
       : report_(&report), symbols_(*restore.app_), before_(restore.image_->layout.description()),
         variables_(restore.image_->layout.variables()),
         located_(located(restore.image_->layout.description())),
-        retained_(RetainLayout(*restore.app_, kRetained).variables()) {}
+        retained_(RetainLayout(*restore.app_, kRetained).variables()) {
+    for (std::string &path : retained_)
+      path = withoutIndices(path);
+    for (const Finding &finding : restore.plan_->report().findings())
+      if (finding.kind == Finding::Kind::Renamed)
+        renamed_.insert(finding.oldPath);
+  }
 
   void explain(const Finding &finding) const {
     const std::string path = shown(finding.path);
@@ -259,7 +278,8 @@ public:
           fmt::format("{} was {} and is {}: converted", path, finding.oldType, finding.newType));
       break;
     case Finding::Kind::Added:
-      if (exists(before_, finding.path)) // it was there, but is not compared: see changedNative
+      // It was there, but is not compared (see changedNative), unless it has another name now.
+      if (!renamed_.contains(finding.path) && exists(before_, finding.path))
         lose(path, fmt::format("{} has a native body and other fields now", finding.newType));
       break;
     default: // texts and enumerators are reported when they were really cut or lost
@@ -275,9 +295,8 @@ private:
   void loseVariable(const std::string &path) const {
     if (!exists(symbols_, path))
       return lose(path, "the program does not have it any more");
-    if (std::any_of(retained_.begin(), retained_.end(), [&](const std::string &own) {
-          return isInside(common::lowerCase(path), common::lowerCase(own));
-        }))
+    if (std::any_of(retained_.begin(), retained_.end(),
+                    [&](const std::string &own) { return isInside(withoutIndices(path), own); }))
       return lose(path, "this is another build of the program, and only PERSISTENT variables "
                         "survive that, not RETAIN");
     lose(path, "it is neither RETAIN nor PERSISTENT any more");
@@ -305,7 +324,8 @@ private:
   SymbolTable before_;  ///< of the program that has written the file
   std::vector<std::string> variables_;
   std::set<std::string> located_;
-  std::vector<std::string> retained_;
+  std::vector<std::string> retained_; ///< Of the program, withoutIndices().
+  std::set<std::string> renamed_;     ///< Their names in the file.
 };
 
 void RetainRestore::explain(RetainReport &report) const {

@@ -118,6 +118,13 @@ constexpr int64_t unitNs(Kind kind) {
 
 constexpr int64_t kDayNs = int64_t{86400} * 1000000000;
 
+/// A day in the units of a type.
+constexpr int64_t dayOf(Kind kind) { return kDayNs / unitNs(kind); }
+
+/// Kinds of 32 bits, which have no values below 0.
+constexpr bool isShort(Kind kind) {
+  return kind == Kind::TIME || kind == Kind::DATE || kind == Kind::TOD || kind == Kind::DT;
+}
 constexpr bool isDateAndTime(Kind kind) { return kind == Kind::DT || kind == Kind::LDT; }
 constexpr bool isDate(Kind kind) { return kind == Kind::DATE || kind == Kind::LDATE; }
 constexpr bool isTimeOfDay(Kind kind) { return kind == Kind::TOD || kind == Kind::LTOD; }
@@ -141,24 +148,93 @@ template <class To, class From> constexpr To truncate(From value) {
   return detail::realToInteger<To, false>(static_cast<LREAL>(value));
 }
 
+/// Modulo a day, never below 0; both in the same unit.
+constexpr int64_t withinDay(int64_t value, int64_t day) {
+  const int64_t rest = value % day;
+  return rest < 0 ? rest + day : rest;
+}
+
+namespace detail {
+
+/// A number of a kind's units as the kind holds it. A DATE is cut to the day, and a TOD is less
+/// than a day, so that those which look alike are equal; TIME and others wrap. LDATE begins within
+/// a day: what lies there counts to the first whole one.
+constexpr int64_t settled(Kind kind, int64_t units) {
+  const int64_t held = isShort(kind) ? static_cast<int64_t>(static_cast<uint32_t>(units)) : units;
+  if (isTimeOfDay(kind))
+    return withinDay(units, dayOf(kind));
+  if (!isDate(kind))
+    return held;
+  const int64_t day = dayOf(kind);
+  return held < INT64_MIN + day ? INT64_MIN / day * day : floorDivide(held, day) * day;
+}
+
+/// Between times and dates, in their units.
+constexpr int64_t timeToTime(Kind to, Kind from, int64_t units) {
+  const auto ns =
+      static_cast<int64_t>(static_cast<uint64_t>(units) * static_cast<uint64_t>(unitNs(from)));
+  return settled(to, floorDivide(ns, unitNs(to)));
+}
+
+/// An integer to a time or date; the bits of an ULINT say more than LINT can.
+constexpr int64_t integerToTime(Kind to, int64_t value, bool isUnsigned64) {
+  if (isUnsigned64 && isTimeOfDay(to))
+    return static_cast<int64_t>(static_cast<uint64_t>(value) % static_cast<uint64_t>(dayOf(to)));
+  return settled(to, value);
+}
+
+/// A real to a time or date: rounded, and limited to what its type can hold.
+constexpr int64_t realToTime(Kind to, LREAL value) {
+  return settled(to, isShort(to) ? static_cast<int64_t>(realToInteger<uint32_t, true>(value))
+                                 : realToInteger<int64_t, true>(value));
+}
+
+} // namespace detail
+
+/// A duration for sums with a time of day, in its own units. A TIME has no values below 0: less
+/// than a day below its wrap it is the difference of a time of day and a later one.
+template <Kind K> constexpr int64_t signedDuration(KindType<K> value) {
+  const auto wide = static_cast<int64_t>(value);
+  if constexpr (K == Kind::TIME)
+    return wide > (int64_t{1} << 32) - detail::dayOf(K) ? wide - (int64_t{1} << 32) : wide;
+  else
+    return wide;
+}
+
+/// TOD + TIME, LTOD + LTIME and the like (Sign 1), TOD - TIME … (-1): the time of day then,
+/// whatever day it is; fractions of the unit are rounded down.
+template <Kind Clock, Kind Duration, int Sign>
+constexpr KindType<Clock> turnClock(KindType<Clock> clock, KindType<Duration> duration) {
+  constexpr int64_t kFine = detail::unitNs(Clock) < detail::unitNs(Duration)
+                                ? detail::unitNs(Clock)
+                                : detail::unitNs(Duration);
+  constexpr int64_t kDay = detail::kDayNs / kFine;
+  const int64_t start = static_cast<int64_t>(clock) * (detail::unitNs(Clock) / kFine);
+  const int64_t way =
+      signedDuration<Duration>(duration) * (detail::unitNs(Duration) / kFine) % kDay;
+  return static_cast<KindType<Clock>>(withinDay(start % kDay + Sign * way, kDay) /
+                                      (detail::unitNs(Clock) / kFine));
+}
+
 /// Any elementary kind to any other. To BOOL: anything but zero is TRUE. Between times and dates:
-/// units are converted, DT to DATE cuts to the day, DT to TOD keeps the time of the day. Between a
-/// time or date and a number: the number of the type's own units (ms, s or ns).
+/// units are converted. Between a time or date and a number: the number of the type's own units
+/// (ms, s or ns). A DATE is always cut to the day, a TOD always less than a day, so that those
+/// which look alike are equal.
 template <Kind To, Kind From> constexpr KindType<To> convert(KindType<From> value) {
   using T = KindType<To>;
   if constexpr (To == From) {
     return value;
   } else if constexpr (To == Kind::BOOL) {
     return static_cast<T>(value != 0 ? 1 : 0);
-  } else if constexpr (detail::unitNs(To) != 0 && detail::unitNs(From) != 0) {
-    int64_t ns = static_cast<int64_t>(value) * detail::unitNs(From);
-    if constexpr (detail::isDate(To) && (detail::isDateAndTime(From) || detail::isDate(From)))
-      ns = floorDivide(ns, detail::kDayNs) * detail::kDayNs;
-    else if constexpr (detail::isTimeOfDay(To) && detail::isDateAndTime(From))
-      ns -= floorDivide(ns, detail::kDayNs) * detail::kDayNs;
-    return static_cast<T>(floorDivide(ns, detail::unitNs(To)));
-  } else {
+  } else if constexpr (detail::unitNs(To) == 0) {
     return convert<T>(value);
+  } else if constexpr (detail::unitNs(From) != 0) {
+    return static_cast<T>(detail::timeToTime(To, From, static_cast<int64_t>(value)));
+  } else if constexpr (detail::Number<KindType<From>>::kReal) {
+    return static_cast<T>(detail::realToTime(To, static_cast<LREAL>(value)));
+  } else {
+    constexpr bool kUnsigned64 = sizeof(value) == 8 && !detail::Number<KindType<From>>::kSigned;
+    return static_cast<T>(detail::integerToTime(To, static_cast<int64_t>(value), kUnsigned64));
   }
 }
 

@@ -38,6 +38,22 @@ constexpr uint32_t clampCount(int64_t n) {
   return n > int64_t{kRest} - 1 ? kRest - 1 : static_cast<uint32_t>(n);
 }
 
+/// A number of characters or a position, of any integer type. An ULINT beyond LINT is LINT's
+/// largest value: by a plain conversion it would be below 0.
+struct Count {
+  int64_t value;
+  template <class T> constexpr Count(T n) : value(static_cast<int64_t>(n)) {
+    if (n > 0 && value < 0)
+      value = INT64_MAX;
+  }
+  /// As the number of characters that come first.
+  [[nodiscard]] constexpr uint32_t characters() const { return clampCount(value); }
+  /// As a position, which counts from 1: the number of characters before it.
+  [[nodiscard]] constexpr uint32_t before() const {
+    return clampCount(value - (value > 0 ? 1 : 0));
+  }
+};
+
 } // namespace detail
 
 /// A literal as a value: lit("abc") is a STRING<3>, lit(u"abc") a WSTRING<3>. It is not copied.
@@ -92,19 +108,18 @@ template <template <uint32_t> class S, uint32_t N> inline Position<N> len(const 
 
 /// LEFT(s, n): the first n characters.
 template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N>
-inline void left(S<K> &to, const S<N> &s, int64_t n) {
-  detail::textPart(to.s, R < K ? R : K, s.s, N, 0, detail::clampCount(n));
+inline void left(S<K> &to, const S<N> &s, detail::Count n) {
+  detail::textPart(to.s, R < K ? R : K, s.s, N, 0, n.characters());
 }
 /// RIGHT(s, n): the last n characters.
 template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N>
-inline void right(S<K> &to, const S<N> &s, int64_t n) {
-  detail::textTail(to.s, R < K ? R : K, s.s, N, detail::clampCount(n));
+inline void right(S<K> &to, const S<N> &s, detail::Count n) {
+  detail::textTail(to.s, R < K ? R : K, s.s, N, n.characters());
 }
 /// MID(s, n, p): n characters from position p. Positions below 1 count as 1.
 template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N>
-inline void mid(S<K> &to, const S<N> &s, int64_t n, int64_t p) {
-  detail::textPart(to.s, R < K ? R : K, s.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
-                   detail::clampCount(n));
+inline void mid(S<K> &to, const S<N> &s, detail::Count n, detail::Count p) {
+  detail::textPart(to.s, R < K ? R : K, s.s, N, p.before(), n.characters());
 }
 /// CONCAT(a, b).
 template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N, uint32_t M>
@@ -113,36 +128,35 @@ inline void concat(S<K> &to, const S<N> &a, const S<M> &b) {
 }
 /// REPLACE(a, b, n, p): b in place of n characters of a from position p.
 template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N, uint32_t M>
-inline void replace(S<K> &to, const S<N> &a, const S<M> &b, int64_t n, int64_t p) {
-  detail::textSplice(to.s, R < K ? R : K, a.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
-                     detail::clampCount(n), b.s, M);
+inline void replace(S<K> &to, const S<N> &a, const S<M> &b, detail::Count n, detail::Count p) {
+  detail::textSplice(to.s, R < K ? R : K, a.s, N, p.before(), n.characters(), b.s, M);
 }
 /// INSERT(a, b, p): b inserted after character p of a.
 template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N, uint32_t M>
-inline void insert(S<K> &to, const S<N> &a, const S<M> &b, int64_t p) {
-  detail::textSplice(to.s, R < K ? R : K, a.s, N, detail::clampCount(p), 0, b.s, M);
+inline void insert(S<K> &to, const S<N> &a, const S<M> &b, detail::Count p) {
+  detail::textSplice(to.s, R < K ? R : K, a.s, N, p.characters(), 0, b.s, M);
 }
 /// DELETE(s, n, p): without n characters from position p.
 template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N>
-inline void remove(S<K> &to, const S<N> &s, int64_t n, int64_t p) {
-  detail::textSplice(to.s, R < K ? R : K, s.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
-                     detail::clampCount(n), static_cast<decltype(&s.s[0])>(nullptr), 0);
+inline void remove(S<K> &to, const S<N> &s, detail::Count n, detail::Count p) {
+  detail::textSplice(to.s, R < K ? R : K, s.s, N, p.before(), n.characters(),
+                     static_cast<decltype(&s.s[0])>(nullptr), 0);
 }
 
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
-inline S<R> left(const S<N> &s, int64_t n) {
+inline S<R> left(const S<N> &s, detail::Count n) {
   S<R> r;
   left<R>(r, s, n);
   return r;
 }
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
-inline S<R> right(const S<N> &s, int64_t n) {
+inline S<R> right(const S<N> &s, detail::Count n) {
   S<R> r;
   right<R>(r, s, n);
   return r;
 }
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
-inline S<R> mid(const S<N> &s, int64_t n, int64_t p) {
+inline S<R> mid(const S<N> &s, detail::Count n, detail::Count p) {
   S<R> r;
   mid<R>(r, s, n, p);
   return r;
@@ -154,19 +168,19 @@ inline S<R> concat(const S<N> &a, const S<M> &b) {
   return r;
 }
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N, uint32_t M>
-inline S<R> replace(const S<N> &a, const S<M> &b, int64_t n, int64_t p) {
+inline S<R> replace(const S<N> &a, const S<M> &b, detail::Count n, detail::Count p) {
   S<R> r;
   replace<R>(r, a, b, n, p);
   return r;
 }
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N, uint32_t M>
-inline S<R> insert(const S<N> &a, const S<M> &b, int64_t p) {
+inline S<R> insert(const S<N> &a, const S<M> &b, detail::Count p) {
   S<R> r;
   insert<R>(r, a, b, p);
   return r;
 }
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
-inline S<R> remove(const S<N> &s, int64_t n, int64_t p) {
+inline S<R> remove(const S<N> &s, detail::Count n, detail::Count p) {
   S<R> r;
   remove<R>(r, s, n, p);
   return r;

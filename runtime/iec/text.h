@@ -56,7 +56,8 @@ Scanned scanTimeOfDay(const char *s, uint32_t length);
 Scanned scanDateAndTime(const char *s, uint32_t length);
 
 /// STRING_TO_X: blanks in front are skipped, the longest prefix that is a value counts, text
-/// without a value gives 0. Integers wrap to the type as other conversions do.
+/// without a value gives 0. Reals may also be `.5`, `5.` and `5.e3`. Integers wrap to the type as
+/// other conversions do.
 void parseValue(Kind kind, const char *s, uint32_t cap, void *value);
 
 } // namespace text

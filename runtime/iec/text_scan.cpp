@@ -200,15 +200,25 @@ struct Digits {
   [[nodiscard]] const char *end() const { return text + count; }
 };
 
+/// What a real number may look like.
+enum class Form : uint8_t {
+  Literal, ///< a literal of ST: digits on both sides of the point
+  Loose,   ///< also `.5`, `5.` and `5.e3`, which instruments and other programs write
+};
+
+bool pointBelongs(bool digitBefore, bool digitAfter, Form form) {
+  return form == Form::Loose ? digitBefore || digitAfter : digitBefore && digitAfter;
+}
+
 /// Takes digits with at most one point, without the underscores between them; false: there is none.
-bool takeMantissa(Reader &in, Digits &digits) {
+bool takeMantissa(Reader &in, Digits &digits, Form form) {
   bool any = false;
   bool point = false;
   for (; digits.count < sizeof digits.text - 8; in.skip()) {
     const char c = in.peek();
     if (isDigit(c)) {
       any = true;
-    } else if (c == '.' && !point && any && isDigit(in.peek(1))) {
+    } else if (c == '.' && !point && pointBelongs(any, isDigit(in.peek(1)), form)) {
       point = true;
     } else if (c == '_' && any && isDigit(in.peek(1))) {
       continue;
@@ -232,6 +242,29 @@ void takeExponent(Reader &in, Digits &digits) {
     digits.text[digits.count++] = in.peek();
 }
 
+/// TRUE: a number that no double holds is too small, not too large. Its first digit other than 0
+/// tells.
+bool isTiny(const Digits &digits) {
+  int64_t exponent = 0; // of the first digit that is not 0
+  bool point = false;
+  bool significant = false;
+  for (const char *p = digits.text; p != digits.end(); ++p) {
+    if (*p == 'e') {
+      int64_t written = 0;
+      const auto [last, error] = std::from_chars(p + 1, digits.end(), written);
+      return error == std::errc::result_out_of_range ? p[1] == '-' : exponent + written < 0;
+    }
+    if (*p == '.')
+      point = true;
+    else if (point && !significant)
+      --exponent;
+    else if (!point && significant)
+      ++exponent;
+    significant = significant || (*p != '.' && *p != '0');
+  }
+  return exponent < 0;
+}
+
 /// T is the type that the digits are rounded to: by way of double a REAL would be rounded twice.
 template <class T> void roundTo(const Digits &digits, Scanned &r) {
   T rounded = 0;
@@ -242,16 +275,14 @@ template <class T> void roundTo(const Digits &digits, Scanned &r) {
     r.real = r.real > 1 ? std::numeric_limits<double>::infinity() : 0.0;
   }
   if (result.ec == std::errc::result_out_of_range) {
-    // Above the range or below it: the exponent's sign tells.
-    const char *e = static_cast<const char *>(std::memchr(digits.text, 'e', digits.count));
-    const bool tiny = (e != nullptr && e[1] == '-') || digits.text[0] == '0';
+    const bool tiny = isTiny(digits);
     r.real = tiny ? 0.0 : std::numeric_limits<double>::infinity();
     r.overflow = !tiny;
   }
 }
 
 /// Rounds to T.
-template <class T> Scanned scanFloating(const char *s, uint32_t length) {
+template <class T> Scanned scanFloating(const char *s, uint32_t length, Form form) {
   Scanned r = nothing();
   Reader in(s, length);
   if (in.peek() == '-' || in.peek() == '+') {
@@ -264,7 +295,7 @@ template <class T> Scanned scanFloating(const char *s, uint32_t length) {
     r.real = std::numeric_limits<double>::quiet_NaN();
   } else {
     Digits digits;
-    if (!takeMantissa(in, digits))
+    if (!takeMantissa(in, digits, form))
       return nothing();
     takeExponent(in, digits);
     roundTo<T>(digits, r);
@@ -277,7 +308,9 @@ template <class T> Scanned scanFloating(const char *s, uint32_t length) {
 
 } // namespace
 
-Scanned scanReal(const char *s, uint32_t length) { return scanFloating<LREAL>(s, length); }
+Scanned scanReal(const char *s, uint32_t length) {
+  return scanFloating<LREAL>(s, length, Form::Literal);
+}
 
 namespace {
 
@@ -415,10 +448,10 @@ void parseValue(Kind kind, const char *s, uint32_t cap, void *value) {
     break;
   }
   case Kind::REAL:
-    store(value, static_cast<REAL>(scanFloating<REAL>(s, length).real));
+    store(value, static_cast<REAL>(scanFloating<REAL>(s, length, Form::Loose).real));
     break;
   case Kind::LREAL:
-    store(value, scanReal(s, length).real);
+    store(value, scanFloating<LREAL>(s, length, Form::Loose).real);
     break;
   case Kind::TIME:
     store(value, convert<Kind::TIME, Kind::LTIME>(scanDuration(s, length).ns));

@@ -92,6 +92,10 @@ public:
       : program_(program), diagnostics_(diagnostics), sentences_(program) {}
 
   void check() {
+    if (sentences_.size() == 0 && program_.title.empty())
+      diagnostics_
+          .report(Code::CncNoEffect, program_.span, "this program has no sentence", "nothing moves")
+          .help("is it the file that was meant?");
     startDecoder(*decoder_, program_.settings.start);
     decoder_->softMotion3 = program_.settings.softMotion3;
     follow();

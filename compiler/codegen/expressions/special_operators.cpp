@@ -78,6 +78,20 @@ int64_t unitOf(const Type *t) {
   }
 }
 
+bool isTimeOfDay(const Type *t) { return t->kind == TypeKind::Tod || t->kind == TypeKind::Ltod; }
+
+/// A time of day and a duration.
+void emitTurnedClock(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
+  cx.out << "::stride::turnClock<::stride::Kind::"
+         << Names::elementary(convertedType(e->left)->kind)
+         << ", ::stride::Kind::" << Names::elementary(convertedType(e->right)->kind) << ", "
+         << (e->op == BinaryOp::Add ? "1" : "-1") << ">(";
+  left();
+  cx.out << ", ";
+  right();
+  cx.out << ')';
+}
+
 /// Points in time and durations: both are brought to the finer unit, the result to its own.
 void emitTimeSum(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
   const int64_t leftUnit = unitOf(convertedType(e->left));
@@ -138,6 +152,8 @@ void emitSpecial(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
       emitCheckedDivision(cx, e, left, right);
   } else if (points(e->left) || points(e->right)) {
     emitPointerArithmetic(cx, e, left, right);
+  } else if (isTimeOfDay(underlying(e->type))) {
+    emitTurnedClock(cx, e, left, right);
   } else if (isTimeOrDate(convertedType(e->left)) && isTimeOrDate(convertedType(e->right))) {
     emitTimeSum(cx, e, left, right);
   } else {

@@ -41,9 +41,14 @@ static void concatInPairs(Context &c, CallExpr *expr) {
   expr->arguments = c.arena.copy(std::vector<Argument>{joined, all.back()});
 }
 
-/// A number of characters of that type may be so large that a DINT of it would be below 0.
-static bool holdsMoreThanDint(const Type *type) {
-  return isInteger(type) && (bitWidth(type) > 32 || underlying(type)->kind == TypeKind::Udint);
+/// What a number of characters becomes: a type in which it does not fall below 0 when it is large.
+static const Type *countTypeOf(const Expr *value, const Type *kind) {
+  if (!isInteger(kind))
+    kind = smallestInteger(value->constant->integer);
+  if (isUnsigned64(kind))
+    return elementaryType(TypeKind::Ulint);
+  const bool isLong = bitWidth(kind) > 32 || (bitWidth(kind) == 32 && !isSignedInteger(kind));
+  return elementaryType(isLong ? TypeKind::Lint : TypeKind::Dint);
 }
 
 /// Whether the arguments are texts and numbers of characters; what is not has been reported.
@@ -63,7 +68,7 @@ static bool areTexts(Context &c, CallExpr *expr, size_t texts, bool characterFir
     if (i >= texts) {
       if (!isInteger(kind) && value->type->kind != TypeKind::AnyInteger)
         return refuse(i, "an integer");
-      setTarget(value, elementaryType(holdsMoreThanDint(kind) ? TypeKind::Lint : TypeKind::Dint));
+      setTarget(value, countTypeOf(value, kind));
       continue;
     }
     if (isCharacter(kind) && (i > 0 || characterFirst))

@@ -1,7 +1,7 @@
 """Conversions of CHAR and WCHAR: numbers of 8 and 16 bits without sign to all types but the texts."""
 from fractions import Fraction
 
-from model import CHARACTERS, INTEGERS, TIMES, UNIT, half_away, limits, saturate, single, wrap
+from model import CHARACTERS, INTEGERS, TIMES, UNIT, half_away, held, limits, saturate, single, wrap
 
 INF = float("inf")
 
@@ -14,7 +14,7 @@ def characters(table):
         high = limits(kind)[1]
         for v in codes[kind]:
             for b in {**INTEGERS, **TIMES}:
-                put(kind, b, v, wrap(b, v))
+                put(kind, b, v, held(b, v) if b in TIMES else wrap(b, v))
             put(kind, "BOOL", v, int(v != 0))
             put(kind, "REAL", v, float(v))
             put(kind, "LREAL", v, float(v))

@@ -26,7 +26,7 @@ from fractions import Fraction
 sys.dont_write_bytecode = True
 from characters import characters
 from libraries import memory, motion, system_strings
-from model import (BITS, CHARACTERS, DAY, EPOCH, INTEGERS, SIGNED, TIMES, UNIT, UNSIGNED, WIDTH, Raw, clock_text, date_text,
+from model import (BITS, CHARACTERS, DAY, EPOCH, INTEGERS, SIGNED, TIMES, UNIT, UNSIGNED, WIDTH, Raw, clock_text, date_text, held,
                    double, from_bits, half_away, limits, literal, saturate, single, wrap)
 from selection import logic, measures, powers, selection, wide_strings
 
@@ -394,13 +394,15 @@ def to_integer(x, kind, cutting=False):
 
 
 def between_times(value, source, target):
-    """Units are converted, rounded down; DATE keeps the day, TOD the time of day of a date and time."""
-    ns = wrap("LTIME", value * UNIT[source])
-    if target in ("DATE", "LDATE") and source in ("DT", "LDT", "DATE", "LDATE"):
-        ns = ns // DAY * DAY
-    elif target in ("TOD", "LTOD") and source in ("DT", "LDT"):
-        ns %= DAY
-    return wrap(target, ns // UNIT[target])
+    """Units are converted, rounded down."""
+    return held(target, wrap("LTIME", value * UNIT[source]) // UNIT[target])
+
+
+def turned(kind, clock, time, way):
+    """A time of day after a duration, or before it. Less than a day below the wrap a TIME is one below 0."""
+    if way[1] == "TIME" and time > 2**32 - 86400000:
+        time -= 2**32
+    return (clock * UNIT[kind] + way[0] * time * UNIT[way[1]]) // UNIT[kind] % (DAY // UNIT[kind])
 
 
 def time_values(kind, rnd, n):
@@ -446,7 +448,7 @@ def conversions():
             table.add(f"TO_REAL($1)", a, [v], "REAL", single(Fraction(v)))
         for t in TIMES:
             for v in rnd.sample(values, 2):
-                put(a, t, v, wrap(t, v))
+                put(a, t, v, held(t, v))
         for v in (0, 1):
             put("BOOL", a, v, v)
     for v in (2**24 + 1, 2**53 + 1, 2**53 + 3, 2**62 + 2**38 + 1, 2**62 + 3 * 2**38 - 1, 2**63 - 1, 2**63 - 513,
@@ -469,7 +471,7 @@ def conversions():
             xs += [rnd.uniform(low, high) for _ in range(2)]
             for x in xs:
                 x = single(x) if kind == "REAL" else x
-                put(kind, b, x, to_integer(x, b))
+                put(kind, b, x, held(b, to_integer(x, b)))
                 if b in SIGNED or b in UNSIGNED:
                     table.third(f"{kind}_TRUNC_{b}($1)", kind, [x], b, to_integer(x, b, True))
         for x in (0.0, -0.0, 0.9999999, -0.9999999, 2.5, -2.5, 2147483647.5, -2147483648.5, 1e20, -1e20, INF, -INF, NAN):
@@ -500,7 +502,7 @@ def conversions():
             put(a, "LREAL", v, double(Fraction(v)))
             put(a, "REAL", v, single(Fraction(v)))
         for v in (0, 1):
-            put("BOOL", a, v, v)
+            put("BOOL", a, v, held(a, v))
     table.write()
 
 
@@ -580,11 +582,21 @@ def texts():
             if x == x:
                 parse(kind, real_text(x, kind), x)
         for text, x in (("", 0), ("x", 0), ("1", 1), ("1.5e3", 1500), ("-2.5E-2", Fraction(-1, 40)), ("1e", 1), ("1.5.2", Fraction(3, 2)),
-                        ("  7", 7), (".5", 0), ("1_000.5", Fraction(2001, 2)), ("5.", 5)):
+                        ("  7", 7), ("1_000.5", Fraction(2001, 2)), ("5.", 5), (".5", Fraction(1, 2)), ("-.5", Fraction(-1, 2)),
+                        ("+.5e-3", Fraction(1, 2000)), ("-5.", -5), ("5.e3", 5000), (".25E+1", Fraction(5, 2)), ("+7", 7), (".", 0), ("-.", 0),
+                        (".e5", 0), ("e5", 0), ("..5", 0), ("-", 0), ("+", 0), ("- 5", 0), ("--5", 0), ("+-5", 0), ("5 ", 5), (" .5 ", Fraction(1, 2)),
+                        ("\t.5", Fraction(1, 2)), ("5. 5", 5), ("._5", 0), (".5_5", Fraction(11, 20)), ("5_.5", 5), ("5,5", 5), (".5.5", Fraction(1, 2)),
+                        ("1e5", 10**5), ("1E+5", 10**5), ("1e-5", Fraction(1, 10**5)), ("1 e5", 1), ("1e 5", 1), ("1e5.5", 10**5), ("0x10", 0),
+                        ("16#10", 16), ("1.e", 1), ("00.50", Fraction(1, 2)), ("0.0001e4", 1), ("100000e-5", 1)):
             parse(kind, text, rounded(kind, Fraction(x)))
         parse(kind, "1e400", INF)
         parse(kind, "-1e400", -INF)
         parse(kind, "1e-400", 0.0)
+        # beyond the range or below it, wherever the digits stand
+        for text, x in (("0.1e400", INF), (".1e400", INF), ("00001e400", INF), ("0.00001e-400", 0.0), (".1e-400", 0.0),
+                        ("1" + 60 * "0" + "e-400", 0.0), ("0." + 60 * "0" + "1e400", INF), ("1e99999999999999999999", INF),
+                        ("1e-99999999999999999999", 0.0), ("-0.1e400", -INF)):
+            parse(kind, text, x)
         parse(kind, "nan", NAN)
         # between two values, just above and below the middle
         for text in ("16777217", "16777217.0000001", "16777216.9999999", "9007199254740993", "9007199254740993.0001",
@@ -660,6 +672,20 @@ def strings():
                 u = "x€"[:n % 2] if name == "WSTRING" else "xy"[:n % 3]
                 table.add("CONCAT($1, $2, $3)", f"{two} {name}(20)", [s, t, u], result, (s + t + u)[:255])
                 table.add("CONCAT($1, $2, $3, $1)", f"{two} {name}(20)", [s, t, u], result, (s + t + u + s)[:255])
+    # numbers of characters at the limits of their types: what is large stays large
+    word = "abcdef"
+    for kind in ("USINT", "DINT", "UDINT", "DWORD", "LINT", "ULINT", "LWORD"):
+        for n in sorted({3, *limits(kind), limits(kind)[1] // 2 + 1}):
+            one = f"STRING(20) {kind}"
+            table.add("LEFT($1, $2)", one, [word, n], "STRING(20)", word[:max(n, 0)])
+            table.add("RIGHT($1, $2)", one, [word, n], "STRING(20)", word[max(6 - max(n, 0), 0):])
+            for p in (3, n):
+                table.add("MID($1, $2, $3)", f"{one} {kind}", [word, n, p], "STRING(20)", cut_out(word, n, p))
+                table.add("DELETE($1, $2, $3)", f"{one} {kind}", [word, n, p], "STRING(20)", spliced(word, "", n, p))
+                table.add("REPLACE($1, $2, $3, $4)", f"STRING(20) STRING(20) {kind} {kind}", [word, "x", n, p], "STRING(20)",
+                          spliced(word, "x", n, p))
+            at = min(max(n, 0), 6)
+            table.add("INSERT($1, $2, $3)", f"STRING(20) STRING(20) {kind}", [word, "x", n], "STRING(20)", word[:at] + "x" + word[at:])
     # at the limit of INT and beyond
     for name, length in (("STRING", 32767), ("STRING", 32768), ("WSTRING", 32768)):
         kind = f"{name}({length})"
@@ -692,6 +718,15 @@ def dates():
         one, two = time_values(a, rnd, 6), time_values(b, rnd, 6)
         return [(rnd.choice(one), rnd.choice(two)) for _ in range(n)] + [(one[-1], two[0]), (one[0], two[-1]), (one[0], two[0])]
 
+    # one kind with the fraction of the other
+    day = 86400000
+    for a, b in [(0, -1), (0, 1), (day - 1, 999999), (day - 1, 10**6), (1, -10**6 - 1), (5, 2**63 - 1), (5, -2**63)]:
+        table.add("$1 + $2", "TOD LTIME", [a, b], "TOD", turned("TOD", a, b, (1, "LTIME")))
+        table.add("$1 - $2", "TOD LTIME", [a, b], "TOD", turned("TOD", a, b, (-1, "LTIME")))
+        table.add("$1 + $2", "LTOD LTIME", [a, b], "LTOD", turned("LTOD", a, b, (1, "LTIME")))
+    for a, b in [(0, 1), (10**6, 2**32 - 1), (0, 2**32 - 1), (86400 * 10**9 - 1, 1), (5, 2**32 - day), (5, 2**32 - day + 1)]:
+        table.add("$1 + $2", "LTOD TIME", [a, b], "LTOD", turned("LTOD", a, b, (1, "TIME")))
+        table.add("$1 - $2", "LTOD TIME", [a, b], "LTOD", turned("LTOD", a, b, (-1, "TIME")))
     for p in ("", "L"):
         time, tod, dt, date = p + "TIME", p + "TOD", p + "DT", p + "DATE"
         for a, b in pairs(time, time, 10):
@@ -704,12 +739,19 @@ def dates():
         for kind in (tod, dt):
             for a, b in pairs(kind, time, 10):
                 # exact, then rounded down to the type's unit
-                later = wrap(kind, (a * UNIT[kind] + b * UNIT[time]) // UNIT[kind])
+                later = turned(kind, a, b, (1, time)) if kind == tod else wrap(kind, (a * UNIT[kind] + b * UNIT[time]) // UNIT[kind])
                 table.add(f"ADD_{kind}_{time}($1, $2)", f"{kind} {time}", [a, b], kind, later)
                 table.add("$1 + $2", f"{kind} {time}", [a, b], kind, later)
                 table.third("ADD($1, $2)", f"{kind} {time}", [a, b], kind, later)
-                earlier = wrap(kind, (a * UNIT[kind] - b * UNIT[time]) // UNIT[kind])
+                earlier = turned(kind, a, b, (-1, time)) if kind == tod else wrap(kind, (a * UNIT[kind] - b * UNIT[time]) // UNIT[kind])
                 table.add(f"SUB_{kind}_{time}($1, $2)", f"{kind} {time}", [a, b], kind, earlier)
+        day = DAY // UNIT[tod]
+        for a, b in [(0, 1), (day - 1, 1), (day - 1, 0), (0, day - 1), (day - 1, day), (1, 2 * day - 1), (day // 2, 40 * day)]:
+            table.add("$1 + $2", f"{tod} {time}", [a, b], tod, (a + b) % day)
+            table.add("$1 - $2", f"{tod} {time}", [a, b], tod, (a - b) % day)
+            if b < day:  # a difference below 0 leads back
+                table.add("$1 + ($2 - $1)", f"{tod} {tod}", [a, b], tod, b)
+                table.add("$1 - ($1 - $2)", f"{tod} {tod}", [a, b], tod, b)
         for kind in (tod, dt, date):
             for a, b in pairs(kind, kind, 10):
                 table.add(f"SUB_{kind}_{kind}($1, $2)", f"{kind} {kind}", [a, b], time,
@@ -785,7 +827,7 @@ def dates():
     table.add("CONCAT_DT($1, $2, $3, $4, $5, $6, $7)", "INT INT INT INT INT INT INT", [2106, 2, 7, 6, 28, 15, 999], "DT", 2**32 - 1)
     table.add("CONCAT_DT($1, $2, $3, $4, $5, $6, $7)", "INT INT INT INT INT INT INT", [2106, 2, 7, 6, 28, 16, 0], "DT", 0)
     table.add("CONCAT_DT($1, $2, $3, $4, $5, $6, $7)", "INT INT INT INT INT INT INT", [1970, 1, 1, 0, 0, 1, -1], "DT", 0)
-    table.add("CONCAT_DATE($1, $2, $3)", "INT INT INT", [2106, 2, 8], "DATE", 49711 * 86400 % 2**32)
+    table.add("CONCAT_DATE($1, $2, $3)", "INT INT INT", [2106, 2, 8], "DATE", held("DATE", 49711 * 86400))
     table.write()
 
 

@@ -98,6 +98,18 @@ class Raw(str):
     """An argument that is ST already."""
 
 
+def held(kind, units):
+    """A number of a kind's units as the kind holds it: a DATE is the day that it lies in, a TOD the time of that day."""
+    if kind in ("TOD", "LTOD"):
+        return units % (DAY // UNIT[kind])
+    units = wrap(kind, units)
+    if kind in ("DATE", "LDATE"):
+        day = DAY // UNIT[kind]
+        first = -(-limits(kind)[0] // day) * day  # the range of LDATE begins within a day
+        return max(units // day * day, first)
+    return units
+
+
 def literal(kind, value):
     """The value as an ST expression with a type of its own."""
     if kind == "BOOL":

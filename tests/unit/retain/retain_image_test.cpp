@@ -199,6 +199,38 @@ TEST_F(RetainImageTest, RenamedVariablesInTheProcessImage) {
     EXPECT_EQ(b.get<int32_t>(b.at(i)), static_cast<int32_t>(21 + i)) << i;
 }
 
+/// The old name of a renamed variable may be used anew: nothing of the new one is lost.
+TEST_F(RetainImageTest, TheNameOfARenamedVariableIsFree) {
+  for (Build *build : {&a, &b}) {
+    const bool before = build == &a;
+    const ModelType *dint = build->elementary(Kind::DINT);
+    if (!before)
+      build->root("GVL", "fresh", dint, kSymPersistent, "old");
+    build->root("GVL", "old", dint, kSymPersistent);
+    build->ready(before ? 1 : 2);
+  }
+  a.set<int32_t>(a.at(0), 41);
+  const RetainReport report = restore();
+  EXPECT_THAT(report.lost, IsEmpty());
+  EXPECT_THAT(report.notes, ElementsAre("GVL.fresh was GVL.old"));
+  EXPECT_EQ(b.get<int32_t>(b.at(0)), 41);
+  EXPECT_EQ(b.get<int32_t>(b.at(1)), 0);
+}
+
+/// Why something is lost does not depend on the bounds of the array that it is in.
+TEST_F(RetainImageTest, RetainInAnArrayWithOtherBounds) {
+  for (Build *build : {&a, &b}) {
+    const ModelType *block =
+        build->structure("Block", {{"kept", build->elementary(Kind::DINT), kSymRetain}}, nullptr,
+                         Kind::FunctionBlock);
+    build->root("GVL", "blocks", build->array(block, build == &a ? 1 : 0, 2));
+    build->ready(build == &a ? 1 : 2);
+  }
+  EXPECT_THAT(restore().lost,
+              ElementsAre("GVL.blocks[1..2].kept is not restored: this is another build of the "
+                          "program, and only PERSISTENT variables survive that, not RETAIN"));
+}
+
 TEST_F(RetainImageTest, AFieldThatIsGoneIsSaid) {
   for (Build *build : {&a, &b}) {
     const ModelType *dint = build->elementary(Kind::DINT);

@@ -52,6 +52,20 @@ TEST(Sources, ReadsUtf8AndLatin1) {
   EXPECT_EQ(sources.file(sources.addBytes("cut", "a\xE2\x82")).text().size(), 5U);
 }
 
+/// Files whose lines end with CR only have lines, too; in others a CR is a character like any
+/// other.
+TEST(Sources, LinesMayEndWithCarriageReturnsOnly) {
+  Sources sources;
+  const SourceFile &old = sources.file(sources.addBytes("old", "one\rtwo\r\rfour"));
+  EXPECT_EQ(old.lineCount(), 4U);
+  EXPECT_EQ(old.line(2), "two");
+  EXPECT_EQ(old.position(9).line, 4U);
+  EXPECT_EQ(old.position(9).column, 1U);
+  const SourceFile &mixed = sources.file(sources.addBytes("mixed", "a\rb\r\nc"));
+  EXPECT_EQ(mixed.lineCount(), 2U);
+  EXPECT_EQ(mixed.line(1), "a\rb");
+}
+
 TEST(Sources, LoadsFilesAndSaysWhyNot) {
   const auto path = std::filesystem::temp_directory_path() / "stride_source_manager_test.st";
   std::ofstream(path, std::ios::binary) << std::string(100'000, 'x') << "\nend";
