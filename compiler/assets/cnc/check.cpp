@@ -237,6 +237,12 @@ private:
 } // namespace
 
 void checkCnc(const CncProgram &program, Diagnostics &diagnostics) {
+  if (program.words.empty()) {
+    diagnostics
+        .report(Code::CncNoEffect, program.span, "this program has no sentence", "nothing moves")
+        .help("a sentence is a line with words, as N10 G1 X100 F50");
+    return;
+  }
   Checker(program, diagnostics).check();
 }
 
