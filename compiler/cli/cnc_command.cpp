@@ -62,6 +62,12 @@ struct LoadedCnc {
     return subprograms[name] = id ? &sources.file(*id) : nullptr;
   }
 
+  /// A subprogram alone amounts to nothing, which is no fault.
+  void check() {
+    if (!expanded || !program->words.empty())
+      checkCnc(*program, diagnostics);
+  }
+
   int finish(const Output &output) {
     Diagnostics sorted = diagnostics;
     sorted.sort();
@@ -97,7 +103,7 @@ int cncCheck(const CncOptions &options) {
     if (&path == &options.files.back())
       checkValues(values, loaded);
     if (loaded.program)
-      checkCnc(*loaded.program, loaded.diagnostics);
+      loaded.check();
     exitCode = std::max(exitCode, loaded.finish(options.output));
   }
   return exitCode;
@@ -217,7 +223,7 @@ int cncMotion(const CncOptions &options) {
       program.settings.velocity = options.motion.velocity;
     if (options.motion.acceleration > 0)
       program.settings.acceleration = program.settings.deceleration = options.motion.acceleration;
-    checkCnc(program, loaded.diagnostics);
+    loaded.check();
     if (!loaded.diagnostics.hasErrors())
       (options.action == CncAction::Run ? runCnc : plotCnc)(path, program, options,
                                                             loaded.diagnostics, says);
@@ -247,7 +253,7 @@ int cncQueue(const CncOptions &options) {
     std::copy(std::begin(options.queue.start), std::end(options.queue.start),
               std::begin(settings.start.coordinate));
     settings.start.axes = options.queue.axes;
-    checkCnc(program, loaded.diagnostics);
+    loaded.check();
     if (!loaded.diagnostics.hasErrors())
       says = writeQueue(path, options.out, program, loaded.diagnostics);
   }
@@ -263,7 +269,7 @@ int cncDrawing(const CncOptions &options) {
   LoadedCnc loaded(path, options, values);
   if (loaded.program) {
     checkValues(values, loaded);
-    checkCnc(*loaded.program, loaded.diagnostics);
+    loaded.check();
     if (!loaded.diagnostics.hasErrors())
       exportDrawing(path, *loaded.program, options, loaded.diagnostics);
   }

@@ -176,22 +176,29 @@ bool isDrivable(const CncPath &path, const CncProgram &program, Diagnostics &dia
   return false;
 }
 
-/// Whether the motion of the path can end within kMostCycles, from its velocities alone; says if
-/// not. A table or a picture of it would take all memory first.
+/// How long the object takes at least, from its velocity or its dwell alone. [s]
+double leastTime(const PathObject &object, double feed) {
+  if (moves(object))
+    return object.length > 0 ? object.length / (object.velocity * feed) : 0;
+  const bool dwells = object.moveType == MoveType::Function && object.switchId[0] == kDwell;
+  return dwells ? std::max(0.0, object.parameterRange[0]) : 0;
+}
+
+/// Whether the path can end within kMostCycles, from its velocities and dwells alone; says if not.
+/// A table or a picture of it would take all memory first.
 bool isShortEnough(const CncPath &path, const CncProgram &program, const CncMotionOptions &options,
                    Diagnostics &diagnostics) {
   double time = 0;
   for (const PathObject &object : path.objects)
-    if (moves(object) && object.length > 0)
-      time += object.length / object.velocity;
-  const double cycles = time / (options.feed * options.cycle);
+    time += leastTime(object, options.feed);
+  const double cycles = time / options.cycle;
   if (cycles <= kMostCycles)
     return true;
   diagnostics
       .report(Code::CncSentence, program.span,
               fmt::format("the path takes {:.7g} cycles at least: more than {:.0f}", cycles,
                           kMostCycles))
-      .help("is a coordinate wrong, or a velocity? --cycle makes cycles longer");
+      .help("is a coordinate wrong, a velocity, or the T of a G4? --cycle makes cycles longer");
   return false;
 }
 
@@ -281,6 +288,8 @@ int driveCnc(const CncPath &path, const CncMotionOptions &options, const CncCycl
     }
     if (begun)
       cycle(static_cast<double>(count++) * options.cycle, progress);
+    if (count > static_cast<int64_t>(kMostCycles)) // limits of axes make it so slow
+      return kCncTooLong;
     if (interpolator->phase == Phase::Finished)
       return 0;
     rest = progress.length > 0 || interpolator->dwell > 0 ? 0 : rest + options.cycle;

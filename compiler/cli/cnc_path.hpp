@@ -34,8 +34,11 @@ cncPathOf(const CncProgram &program, const CncMotionOptions &options, Diagnostic
 /// What a cycle has given.
 using CncCycle = std::function<void(double time, const stride::cnc::Progress &progress)>;
 
+/// The path takes more cycles than are driven.
+inline constexpr int kCncTooLong = -1;
+
 /// Drives the path from its first motion on; M functions are acknowledged at once. Returns the
-/// SMC_ERROR that has ended it, or 0.
+/// SMC_ERROR that has ended it, kCncTooLong, or 0.
 int driveCnc(const CncPath &path, const CncMotionOptions &options, const CncCycle &cycle);
 
 } // namespace stc::cli

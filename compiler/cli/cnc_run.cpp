@@ -106,6 +106,8 @@ std::string summaryOf(const std::string &file, const CncPath &path, double durat
 /// The names of errors that the path can end with.
 std::string errorText(int error) {
   switch (error) {
+  case kCncTooLong:
+    return "more than 30000000 cycles have passed: are the limits of axes too low?";
   case 1001:
     return "SMC_INT_VEL_ZERO: a motion without a velocity";
   case 1008:

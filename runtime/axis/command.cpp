@@ -1,6 +1,7 @@
 #include "runtime/axis/command.hpp"
 
 #include "runtime/axis/plan_axis.hpp"
+#include "runtime/axis/present_state.hpp"
 #include "runtime/numeric/exact_math.hpp"
 #include "runtime/numeric/profile/modulo.hpp"
 
@@ -345,37 +346,13 @@ void blendAnew(AxisRef &ref) noexcept {
     planAnew(ref);
 }
 
-/// What a superimposed motion has added by the time `later` [s] in this cycle. Its block may have
-/// been called in this cycle already, or not yet.
-State addedState(const AxisRef &ref, double later) noexcept {
-  const auto &added = ref.stSuperimposed;
-  const State state{added.fPosition, added.fVelocity, added.fAcceleration};
-  if (added.ulOwner == 0)
-    return state;
-  return numeric::evaluateCubic(state, 0.0,
-                                added.bMovedInThisCycle != 0 ? later - ref.fTaskCycle : later);
-}
-
 /// Where the motion in progress ends, or has ended, `late` seconds before this cycle's set values;
 /// as the axis shows it.
 State endOf(const AxisRef &ref, double late) noexcept {
   const auto &plan = ref.stPlanner;
-  const State added = addedState(ref, late < plan.fCycle ? plan.fCycle - late : 0.0);
+  const State added = axis::addedState(ref, late < plan.fCycle ? plan.fCycle - late : 0.0);
   return {axis::shownPosition(ref, plan.fTarget + added.position),
           plan.fEndVelocity + added.velocity, added.acceleration};
-}
-
-/// From where a command begins that ends what moves the axis.
-State presentState(const AxisRef &ref) noexcept {
-  State state = axis::setState(ref);
-  if (ref.bMovedInThisCycle == 0)
-    return state;
-  const auto &added = ref.stSuperimposed;
-  const State now = addedState(ref, ref.fTaskCycle);
-  state.position = axis::shownPosition(ref, state.position + (now.position - added.fPosition));
-  state.velocity += now.velocity - added.fVelocity;
-  state.acceleration += now.acceleration - added.fAcceleration;
-  return state;
 }
 
 /// Plans a command that begins in `start`, whatever waits; its directions become signs. An
@@ -396,11 +373,11 @@ int16_t planFresh(Course &course, const AxisRef &ref, Command &command,
 int16_t checkCommand(const AxisRef &axis, const Command &command) noexcept {
   Command settled = command;
   Course course;
-  return planFresh(course, axis, settled, presentState(axis));
+  return planFresh(course, axis, settled, axis::presentState(axis));
 }
 
 int16_t beginCommand(AxisRef &axis, const Command &command) noexcept {
-  const State start = presentState(axis);
+  const State start = axis::presentState(axis);
   Command settled = command;
   Course course;
   if (const int16_t problem = planFresh(course, axis, settled, start); problem != error::kNone)
@@ -448,13 +425,13 @@ bool beginQueued(AxisRef &axis, uint64_t owner) noexcept {
 
 bool giveToNext(AxisRef &axis) noexcept {
   while (axis.stQueue.uiCount > 0)
-    if (handOver(axis, axis::setState(axis), 0.0))
+    if (handOver(axis, axis::presentState(axis), 0.0))
       return true;
   return false;
 }
 
 void beginCoasting(AxisRef &axis, uint64_t owner) noexcept {
-  const State start = presentState(axis);
+  const State start = axis::presentState(axis);
   axis.stQueue.uiCount = 0;
   axis::giveAxis(axis, owner);
   auto &plan = axis.stPlanner;

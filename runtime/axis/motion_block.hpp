@@ -4,7 +4,7 @@
 #ifndef STRIDE_RUNTIME_AXIS_MOTION_BLOCK_HPP
 #define STRIDE_RUNTIME_AXIS_MOTION_BLOCK_HPP
 
-#include "runtime/axis/axis_ref.hpp"
+#include "runtime/axis/present_state.hpp"
 
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 #include "st/SM_DriveBasic/SMC_BLOCK_STATE.h"
@@ -143,6 +143,7 @@ inline int16_t homingRefusal(const AxisRef &ref) noexcept {
 /// it, finds out at its next call. `axisState` is one of axis::state.
 inline void take(BlockState &block, AxisRef &ref, int16_t axisState) noexcept {
   ref.stQueue.uiCount = 0;
+  axis::settleSuperimposed(ref);
   block.ulOwner = axis::takeAxis(ref);
   block.bRunning = 1;
   block.bWaiting = 0;

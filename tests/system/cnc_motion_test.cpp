@@ -121,6 +121,28 @@ TEST_F(CncMotion, RefusesWhatTakesTooLong) {
   EXPECT_EQ(cnc({"run", "a.cnc"}).exitCode, 1);
 }
 
+/// A dwell takes cycles as a motion does.
+TEST_F(CncMotion, RefusesDwellsOfDays) {
+  write("% dwell\nG4 T30001\nG1 X1 F10 E400 E-400\n");
+  const auto words = HasSubstr("the path takes 3.00011e+07 cycles at least: more than 30000000");
+  EXPECT_THAT(cnc({"run", "a.cnc"}).err, AllOf(HasSubstr("SE0882"), words));
+  EXPECT_THAT(cnc({"plot", "a.cnc"}).err, words);
+  EXPECT_EQ(cnc({"run", "a.cnc", "--cycle", "1s"}).exitCode, 0) << "30001 cycles";
+  write("% dwells\nG1 X1 F10 E400 E-400\nG4 T20000\nG1 X2\nG4 T20000\n");
+  EXPECT_EQ(cnc({"run", "a.cnc"}).exitCode, 1) << "both together";
+}
+
+TEST_F(CncMotion, SaysThatAProgramIsEmpty) {
+  for (const char *const text : {"", "\n\n", "% title\n", "(a comment)\n"}) {
+    write(text);
+    const ProcessResult result = cnc({"check", "a.cnc"});
+    EXPECT_EQ(result.exitCode, 0) << "a warning";
+    EXPECT_THAT(result.err, AllOf(HasSubstr("SE0886"), HasSubstr("no sentence"))) << text;
+  }
+  write("SUBPROGRAM Drill{#x : LREAL}\nN10 G0 X#x\nEND_SUBPROGRAM\n");
+  EXPECT_EQ(cnc({"check", "a.cnc"}).err, "") << "called by others";
+}
+
 TEST_F(CncMotion, MergesLines) {
   std::string text = "% circle\nG17\nG1 X20 F50 E400 E-400\n";
   for (int i = 1; i <= 360; ++i)

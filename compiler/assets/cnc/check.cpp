@@ -92,10 +92,6 @@ public:
       : program_(program), diagnostics_(diagnostics), sentences_(program) {}
 
   void check() {
-    if (sentences_.size() == 0 && program_.title.empty())
-      diagnostics_
-          .report(Code::CncNoEffect, program_.span, "this program has no sentence", "nothing moves")
-          .help("is it the file that was meant?");
     startDecoder(*decoder_, program_.settings.start);
     decoder_->softMotion3 = program_.settings.softMotion3;
     follow();
@@ -241,6 +237,12 @@ private:
 } // namespace
 
 void checkCnc(const CncProgram &program, Diagnostics &diagnostics) {
+  if (program.words.empty()) {
+    diagnostics
+        .report(Code::CncNoEffect, program.span, "this program has no sentence", "nothing moves")
+        .help("a sentence is a line with words, as N10 G1 X100 F50");
+    return;
+  }
   Checker(program, diagnostics).check();
 }
 

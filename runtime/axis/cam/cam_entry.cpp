@@ -1,7 +1,7 @@
 #include "runtime/axis/cam/cam_entry.hpp"
 
 #include "runtime/axis/plan_axis.hpp"
-#include "runtime/axis/set_point.hpp"
+#include "runtime/axis/present_state.hpp"
 #include "runtime/numeric/cam/approach.hpp"
 #include "runtime/numeric/profile/modulo.hpp"
 
@@ -164,7 +164,7 @@ int16_t stepWaiting(CamState &state, const cam::Curve &curve, const axis::AxisRe
 } // namespace
 
 numeric::MotionState onwards(const axis::AxisRef &slave) noexcept {
-  numeric::MotionState state = axis::setState(slave);
+  numeric::MotionState state = axis::presentState(slave);
   if (slave.bMovedInThisCycle == 0)
     state.position += state.velocity * slave.fTaskCycle;
   return state;

@@ -1,8 +1,8 @@
 // MC_GearInPos: a gear whose slave is at a place when the master is at another.
 #include "runtime/axis/catch_up.hpp"
 #include "runtime/axis/gear.hpp"
+#include "runtime/axis/present_state.hpp"
 #include "runtime/axis/run_follower.hpp"
-#include "runtime/axis/set_point.hpp"
 #include "runtime/numeric/cam/approach.hpp"
 #include "runtime/numeric/modulo_wrap.hpp"
 #include "runtime/numeric/profile/profile.hpp"
@@ -244,7 +244,7 @@ void lurk(Block &block, AxisRef &slave, bool first) noexcept {
   }
   const bool moved = slave.bMovedInThisCycle != 0;
   const MasterMotion master = look(block, first);
-  const Attempt attempt = leave(block, axis::setState(slave), master, moved);
+  const Attempt attempt = leave(block, axis::presentState(slave), master, moved);
   if (attempt.error != axis::error::kNone) {
     motion::fail(state, &slave, attempt.error);
   } else if (attempt.started) {

@@ -1,4 +1,5 @@
 // MC_PositionProfile, MC_VelocityProfile, MC_AccelerationProfile: courses through points in time.
+#include "runtime/axis/command.hpp"
 #include "runtime/axis/motion_block.hpp"
 #include "runtime/axis/set_point.hpp"
 #include "runtime/numeric/exact_math.hpp"
@@ -105,7 +106,7 @@ int16_t plan(Block &block, const Kind &kind, const Reference *reference, double 
   const int16_t count = given == 0 ? block.ArraySize : given;
   if (count < 1 || count > block.ArraySize)
     return kind.badSize;
-  const motion::State start = axis::setState(ref);
+  const motion::State start = axis::presentState(ref);
   const double base = reference->IsAbsolute != 0 ? 0.0 : startValue(kind, start);
   motion::TimePoint points[kMaxPoints];
   if (!readPoints(*reference, {block.Scale * scale, block.Offset + base}, count, points))
@@ -127,17 +128,16 @@ motion::State stateAt(Course &course, double t) noexcept {
 
 /// The last point has been reached, in this cycle or before, and written.
 void arrive(motion::BlockState &state, const Course &course, AxisRef &ref) noexcept {
+  if (motion::giveToNext(ref)) { // what waits goes on from here
+    motion::finish(state);
+    return;
+  }
   if (course.fEndVelocity == 0.0) {
     motion::finish(state);
     motion::release(ref);
     return;
   }
   ref.nAxisState = axis::state::kContinuous;
-  if (ref.stQueue.uiCount > 0) { // its block takes the axis over at its next call
-    motion::finish(state);
-    axis::releaseAxis(ref);
-    return;
-  }
   // Without Execute it is shown once.
   state.bDone = state.bExecuteOld != 0 || state.bReached == 0;
   state.bReached = 1;

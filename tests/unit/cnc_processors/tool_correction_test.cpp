@@ -171,6 +171,92 @@ TEST(CncToolCorrection, TakesWholeCircles) {
   }
 }
 
+/// The shifted circle is a place: its centre.
+TEST(CncToolCorrection, GoesToTheCentreOfACircleAsLargeAsTheTool) {
+  for (const bool leaves : {true, false}) {
+    Drawing d;
+    d.radius = 2;
+    d.here = {-5, 1};
+    d.rapid(2, 0);
+    d.arc({0, 0}, 360).marks = kToolLeft | (leaves ? kEndToolCorrection : 0);
+    if (leaves)
+      d.rapid(30, 7);
+    const Outcome run = correct(d.path);
+    expectWhole(run.objects);
+    ASSERT_EQ(run.objects.size(), leaves ? 3U : 2U);
+    EXPECT_NEAR(gapOf(endOf(run.objects[0]), {0, 0}), 0, 1e-12);
+    EXPECT_EQ(run.objects[1].length, 0);
+    EXPECT_DOUBLE_EQ(endOf(run.objects.back()).x, leaves ? 30 : 0);
+  }
+}
+
+/// A spindle that is switched on after G41 is the object with the mark.
+TEST(CncToolCorrection, BeginsAfterFunctionsThatAreMarked) {
+  for (const ToolEntry entry : {ToolEntry::Positioning, ToolEntry::Ramp}) {
+    const bool isRamp = entry == ToolEntry::Ramp;
+    Drawing d;
+    d.radius = 3;
+    d.rapid(0, 0);
+    d.add(MoveType::Function, {0, 0}).marks = kToolLeft;
+    d.add(MoveType::Function, {0, 0});
+    if (isRamp)
+      d.line(10, 0);
+    d.line(20, 0);
+    d.line(20, 20).marks = kEndToolCorrection;
+    d.rapid(30, 20);
+    const Outcome run = correct(d.path, {0.0, 0.0, entry});
+    expectWhole(run.objects);
+    ASSERT_EQ(run.objects.size(), isRamp ? 7U : 6U);
+    EXPECT_DOUBLE_EQ(endOf(run.objects[isRamp ? 3 : 0]).y, 3);
+    EXPECT_DOUBLE_EQ(endOf(run.objects[1]).y, isRamp ? 0 : 3); // the function stays at its place
+    EXPECT_DOUBLE_EQ(endOf(run.objects[isRamp ? 4 : 3]).x, 17);
+    for (const PathObject &o : run.objects)
+      EXPECT_EQ(o.marks, 0);
+  }
+}
+
+/// The contour before ends, and a function between both has the mark of the next.
+TEST(CncToolCorrection, BeginsAfterMarkedFunctionsBetweenContours) {
+  Drawing d;
+  d.radius = 3;
+  d.rapid(0, 0);
+  d.line(20, 0).marks = kToolLeft | kEndToolCorrection;
+  d.add(MoveType::Function, {20, 0}).marks = kToolRight;
+  d.rapid(40, 0);
+  d.line(60, 0).marks = kEndToolCorrection;
+  d.rapid(60, 20);
+  const Outcome run = correct(d.path);
+  expectWhole(run.objects);
+  ASSERT_EQ(run.objects.size(), 6U);
+  EXPECT_DOUBLE_EQ(endOf(run.objects[1]).y, 3);
+  EXPECT_DOUBLE_EQ(endOf(run.objects[3]).y, -3);
+  EXPECT_DOUBLE_EQ(endOf(run.objects[4]).y, -3);
+}
+
+/// What ends before anything has moved in the plane does not shift what follows.
+TEST(CncToolCorrection, EndsBeforeAnythingIsShifted) {
+  for (const bool function : {false, true}) {
+    Drawing d;
+    d.radius = 3;
+    d.rapid(10, 0);
+    PathObject &first = function ? d.add(MoveType::Function, {10, 0}) : d.line(10, 0);
+    if (!function)
+      first.end.coordinate[kAxisZ] = first.length = 5;
+    first.marks = kToolLeft | kEndToolCorrection;
+    const double z = function ? 0 : 5;
+    for (const Point to : {Point{20, 0}, Point{20, 20}}) {
+      PathObject &o = d.line(to.x, to.y);
+      o.start.coordinate[kAxisZ] = o.end.coordinate[kAxisZ] = z;
+    }
+    const Outcome run = correct(d.path);
+    ASSERT_EQ(run.objects.size(), 4U);
+    for (size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(gapOf(endOf(run.objects[i]), endOf(d.path[i])), 0);
+      EXPECT_EQ(run.objects[i].marks, 0);
+    }
+  }
+}
+
 TEST(CncToolCorrection, KeepsWhatElseThereIsInItsPlace) {
   Drawing d;
   d.radius = 2;

@@ -30,6 +30,8 @@ constexpr Kind kKinds[] = {
     {"MC_MoveAdditive", true, false},
     {"MC_MoveSuperImposed", true, false},
     {"MC_PositionProfile", true, false},
+    {"MC_VelocityProfile", true, false},
+    {"MC_AccelerationProfile", true, false},
     {"MC_Halt", true, true},
     {"MC_Stop", true, true},
     {"MC_MoveVelocity", false, false},
@@ -161,6 +163,40 @@ TEST_P(Lifetimes, NoTaskCycleIsAnError) {
   cycle(true);
   EXPECT_EQ(shown().errorId, 110);
   EXPECT_FALSE(shown().busy || shown().done);
+}
+
+/// Called between the motion below, which has covered its way in this cycle, and what is added to
+/// it, which has not.
+TEST(TakenOverWithinACycle, WhatIsAddedCoversItsWay) {
+  for (const char *const name :
+       {"MC_MoveAbsolute", "MC_MoveVelocity", "MC_PositionProfile", "MC_VelocityProfile",
+        "MC_AccelerationProfile", "MC_Halt", "MC_Stop", "MC_Jog", "MC_GearIn", "MC_GearInPos",
+        "MC_CamIn", "SMC_TrackAxis"}) {
+    SCOPED_TRACE(name);
+    StateScene scene("continuous_motion", "MC_MoveVelocity in velocity");
+    Actor taker = makeActor(scene.rig, name);
+    Actor adding = makeActor(scene.rig, "MC_MoveSuperImposed");
+    const auto &axis = scene.rig.axis;
+    bool takes = false;
+    double before = 0;
+    double velocity = 0;
+    for (int i = 0; i < 400; ++i) {
+      before = axis.fSetPosition;
+      velocity = axis.fSetVelocity;
+      takes = i >= 200;
+      scene.rig.cycle([&] {
+        scene.owner->call(true);
+        if (takes)
+          taker.call(true);
+        adding.call(true);
+      });
+      // Twice the greatest acceleration of a block here, and one of those that are added.
+      const double way = axis.fSetPosition - before;
+      ASSERT_NEAR(way / scene.rig.cycleSeconds, 0.5 * (velocity + axis.fSetVelocity), 0.2)
+          << "cycle " << i;
+    }
+    EXPECT_TRUE(taker.show().busy || taker.show().done) << taker.show().errorId;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Lifetimes, testing::ValuesIn(kKinds),

@@ -8,6 +8,8 @@
 namespace stride::cnc {
 namespace {
 
+constexpr uint8_t kToolSides = kToolLeft | kToolRight;
+
 /// Changes of the radius below this part of it are none.
 constexpr double kSameRadius = 1e-12;
 
@@ -33,8 +35,15 @@ void beginAt(PathObject &object, const Plane &plane, const Vector3 &place) noexc
   follow(object, plane, lineTrack(place, inPlane(object.end, plane)), 0.0, 1.0);
 }
 
-/// Nothing more is cut: the piece and what stands at its end are put out.
+/// Nothing more is cut: the piece and what stands at its end are put out. What has vanished before
+/// any piece is a place: of a circle as large as the tool, its centre.
 void settle(ToolCorrection &tool, Output &output) noexcept {
+  if (tool.gap && !tool.follows) {
+    const ToolGap &gap = tool.vanished;
+    const Track place = lineTrack(gap.from, gap.to);
+    addPiece(tool, {gap.object, place, gap.begin, gap.end}, inPlane(gap.object.end, tool.plane),
+             false, output);
+  }
   if (tool.holds)
     emitPiece(tool, 1.0, output);
   else
@@ -51,12 +60,19 @@ void leave(ToolCorrection &tool, const Position &contour, Output &output) noexce
   tool.side = ToolSide::None;
 }
 
+/// Without marks of a tool: they are carried out.
+void keepWaiting(ToolCorrection &tool, const PathObject &object) noexcept {
+  PathObject &kept = tool.waiting.objects[tool.waiting.count++];
+  kept = object;
+  kept.marks &= static_cast<uint8_t>(~kToolMarks);
+}
+
 /// Holds an object back that does not move in the plane. Without room for it, the corner is made as
 /// if nothing followed.
 void wait(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
   if (tool.waiting.count == kMostWaiting)
     settle(tool, output);
-  tool.waiting.objects[tool.waiting.count++] = object;
+  keepWaiting(tool, object);
 }
 
 // ---- pieces of objects
@@ -243,6 +259,12 @@ Step stepOn(ToolCorrection &tool, const PathObject &object, Output &output) noex
   return step;
 }
 
+/// The contour has ended without an object.
+void stayOff(ToolCorrection &tool) noexcept {
+  tool.phase = ToolPhase::Off;
+  tool.side = ToolSide::None;
+}
+
 /// The first object of the contour, or what stands before it.
 Step entering(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
   Track own;
@@ -253,7 +275,9 @@ Step entering(ToolCorrection &tool, const PathObject &object, Output &output) no
   if (!isMotion(object) || !(own.shape.length > 0.0)) {
     if (object.moveType == MoveType::Jump || tool.waiting.count == kMostWaiting)
       releaseApproach(tool, output);
-    tool.waiting.objects[tool.waiting.count++] = object;
+    keepWaiting(tool, object);
+    if ((object.marks & kEndToolCorrection) != 0)
+      stayOff(tool); // before anything was shifted
     return Step::Took;
   }
   double radius = 0.0;
@@ -270,31 +294,43 @@ Step begin(ToolCorrection &tool, const PathObject &object, Output &output) noexc
   const bool isRamp = tool.rules.entry == ToolEntry::Ramp;
   if (isRamp && !isLine(object))
     return failed(output, StreamError::InvalidObject);
-  tool.side = (object.marks & kToolLeft) != 0 ? ToolSide::Left : ToolSide::Right;
+  tool.side = (object.marks & kToolSides) == 0  ? tool.pending
+              : (object.marks & kToolLeft) != 0 ? ToolSide::Left
+                                                : ToolSide::Right;
+  tool.pending = ToolSide::None;
   tool.phase = ToolPhase::Entering;
   if (!isRamp && !isPositioning(object))
     return entering(tool, object, output);
   releaseApproach(tool, output);
   tool.approach = object;
   tool.approaches = true;
-  if ((object.marks & kEndToolCorrection) != 0) { // nothing was between
-    tool.phase = ToolPhase::Off;
-    tool.side = ToolSide::None;
-  }
+  if ((object.marks & kEndToolCorrection) != 0) // nothing was between
+    stayOff(tool);
   return Step::Took;
+}
+
+/// What a function or a jump is marked with counts from the next motion on.
+void markNext(ToolCorrection &tool, const PathObject &object) noexcept {
+  if ((object.marks & kToolSides) != 0)
+    tool.pending = (object.marks & kToolLeft) != 0 ? ToolSide::Left : ToolSide::Right;
+  if ((object.marks & kEndToolCorrection) != 0)
+    tool.pending = ToolSide::None;
 }
 
 Step off(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
   double radius = 0.0;
-  if (isMotion(object) && (object.marks & (kToolLeft | kToolRight)) != 0) {
+  if (!isMotion(object)) {
+    markNext(tool, object);
+  } else if ((object.marks & kToolSides) != 0 || tool.pending != ToolSide::None) {
     if (!radiusOf(tool, object, radius))
       return failed(output, StreamError::InvalidParameter);
     if (radius > 0.0)
       return begin(tool, object, output);
+    tool.pending = ToolSide::None;
   }
   const bool stands = object.moveType == MoveType::Function;
   if (tool.approaches && stands && tool.waiting.count < kMostWaiting) {
-    tool.waiting.objects[tool.waiting.count++] = object;
+    keepWaiting(tool, object);
     return Step::Took;
   }
   releaseApproach(tool, output);
@@ -316,7 +352,8 @@ void holdReturn(ToolCorrection &tool, const PathObject &like) noexcept {
 
 Step leaving(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
   if (object.moveType == MoveType::Function) {
-    tool.waiting.objects[tool.waiting.count++] = object;
+    markNext(tool, object);
+    keepWaiting(tool, object);
     emitWaiting(tool, output);
     return Step::Took;
   }

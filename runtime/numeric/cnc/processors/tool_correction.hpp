@@ -74,6 +74,7 @@ struct ToolCorrection {
   ToolRules rules;
   ToolPhase phase;
   ToolSide side;
+  ToolSide pending; ///< Off: a function was marked, and the next motion begins the contour.
   bool holds;       ///< `piece` has not been put out.
   bool follows;     ///< There is a piece before the next one.
   bool gap;         ///< Arcs have vanished after `piece`: `vanished`.
