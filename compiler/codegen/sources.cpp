@@ -225,10 +225,8 @@ void generateUnits(Context &context, const std::vector<Generator> &others, Files
   std::vector<const PouSymbol *> pous;
   std::copy_if(context.own->pous.begin(), context.own->pous.end(), std::back_inserter(pous),
                [](const PouSymbol *p) { return !p->isInterface(); });
-  size_t bytes = 0;
-  for (const File *file : context.program.files)
-    bytes += context.program.sources.file(file->id).text().size();
-  const unsigned threads = Workers(context.program.settings.jobs).threadsFor(pous.size(), bytes);
+  const unsigned threads =
+      Workers(context.program.settings.jobs).threadsFor(pous.size(), textBytes(context.program));
   // What takes long comes first. All but headers is one part; what the sources need to know of the
   // whole program goes to `context` itself, which nobody else uses meanwhile.
   std::vector<Generator> parts = others;
