@@ -9,12 +9,17 @@
 #include "compiler/cli/terminal.hpp"
 #include "compiler/semantics/program.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace stc::cli {
+
+/// The last project, which is not destroyed when the process ends: its memory is given back as a
+/// whole.
+using Kept = std::shared_ptr<const void>;
 
 /// Options that all commands on a project have.
 struct ProjectOptions {
@@ -24,6 +29,7 @@ struct ProjectOptions {
   bool debug = false;               ///< -O0 -g
   Levels levels;                    ///< -W
   std::vector<std::string> defines; ///< `NAME` or `NAME=VALUE` for `{IF defined (…)}`
+  Kept *kept = nullptr;             ///< takes the project; null: it is destroyed
 };
 
 /// What they say of the project's compilation.

@@ -11,7 +11,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <malloc.h>
 #include <new>
 
 namespace stc::cli {
@@ -19,6 +21,15 @@ namespace stc::cli {
 namespace {
 
 constexpr int kUsageError = 1;
+
+/// The allocator keeps what is freed: the next large text would only be given the same pages once
+/// more, cleared by the system one after the other.
+void keepFreedMemory() {
+  constexpr int kMegabyte = 1 << 20;
+  ::mallopt(M_MMAP_THRESHOLD, 32 * kMegabyte);
+  ::mallopt(M_TRIM_THRESHOLD, 256 * kMegabyte);
+  ::mallopt(M_TOP_PAD, 4 * kMegabyte);
+}
 
 void declareNew(CLI::App &app, Invocation &call) {
   CLI::App *create = app.add_subcommand("new", "Make a project that builds and runs");
@@ -232,12 +243,13 @@ std::vector<std::string> argumentsOf(int argc, char **argv) {
   return arguments;
 }
 
-int run(int argc, char **argv) {
+int run(int argc, char **argv, Kept &kept) {
   CLI::App app("Structured Text and SoftMotion programs: check, build, simulate");
   app.set_version_flag("--version", versionText());
   app.require_subcommand(0, 1);
   app.name("stride");
   Invocation call;
+  call.project.kept = &kept;
   // In the order in which the overview shows them.
   for (const auto declare :
        {declareNew, declareImports, declareCheck, declareBuild, declareRuns, declareDoc,
@@ -277,8 +289,11 @@ int main(int argc, char **argv) {
   // Whatever the caller ignores: compilers that are started get the default, too. The host of
   // `stride run` ignores it.
   std::signal(SIGPIPE, SIG_DFL);
+  stc::cli::keepFreedMemory();
+  stc::cli::Kept kept;
   try {
-    return stc::cli::concluded(stc::cli::run(argc, argv));
+    // Ends here, with `kept` as it is.
+    std::exit(stc::cli::concluded(stc::cli::run(argc, argv, kept)));
   } catch (const std::bad_alloc &) {
     std::fputs("stride: there is not enough memory\n", stderr);
     return 1;

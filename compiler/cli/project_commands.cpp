@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
+#include <memory>
 #include <unistd.h>
 
 namespace stc::cli {
@@ -31,21 +32,32 @@ Settings settingsOf(const ProjectOptions &options) {
 
 namespace {
 
+// The project, which stays until the process ends where it may.
+std::shared_ptr<Project> openProject(const ProjectOptions &options, Purpose purpose,
+                                     const LibraryIndex &index) {
+  if (options.kept != nullptr)
+    options.kept->reset(); // that of the last round of `--watch`
+  auto project = std::make_shared<Project>(options.path, purpose, settingsOf(options), index);
+  if (options.kept != nullptr)
+    *options.kept = project;
+  return project;
+}
+
 // Opens and builds the project and shows its diagnostics. `exitCode` is that of the command.
 std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOptions build,
                                         ProgressLine &progress, int &exitCode) {
   const EmbeddedLibraryIndex index(standardLibrary());
-  Project project(options.path, Purpose::Build, settingsOf(options), index);
+  const std::shared_ptr<Project> project = openProject(options, Purpose::Build, index);
   std::optional<BuildResult> result;
-  if (!project.hasErrors()) {
+  if (!project->hasErrors()) {
     build.debug = options.debug;
     build.progress = [&](std::string_view what, size_t done, size_t total) {
       progress.update(what, done, total);
     };
-    result = stc::build(project, build);
+    result = stc::build(*project, build);
   }
   progress.clear();
-  exitCode = show(project.diagnostics(), project.sources(), options.output);
+  exitCode = show(project->diagnostics(), project->sources(), options.output);
   return result;
 }
 
@@ -175,8 +187,8 @@ int becomeHost(std::vector<std::string> arguments, const Output &output) {
 
 int checkCommand(const ProjectOptions &options) {
   const EmbeddedLibraryIndex index(standardLibrary());
-  const Project project(options.path, Purpose::Check, settingsOf(options), index);
-  return show(project.diagnostics(), project.sources(), options.output);
+  const std::shared_ptr<const Project> project = openProject(options, Purpose::Check, index);
+  return show(project->diagnostics(), project->sources(), options.output);
 }
 
 int buildCommand(const ProjectOptions &options, const std::string &out, const BuildKind &kind) {

@@ -465,9 +465,7 @@ namespace stc {
 std::vector<GeneratedFile> generateLibrary(const Program &program, const Library &library) {
   codegen::Context context(program, &library);
   std::vector<GeneratedFile> files;
-  codegen::generateHeaders(context, files);
-  codegen::generateSources(context, files);
-  codegen::generateDispatch(context, files);
+  codegen::generateUnits(context, {codegen::generateDispatch}, files);
   return files;
 }
 
@@ -477,16 +475,17 @@ std::vector<GeneratedFile> generateApplication(const Program &program, const App
     if (!library->isBuilt)
       continue;
     codegen::Context own(program, library.get());
-    codegen::generateHeaders(own, files);
-    codegen::generateSources(own, files);
+    codegen::generateUnits(own, {}, files);
   }
   codegen::Context context(program, program.user);
-  codegen::generateHeaders(context, files);
-  codegen::generateSources(context, files);
-  codegen::generateDispatch(context, files); // of all libraries
-  codegen::Application application(context, config);
-  files.push_back(application.app());
-  files.push_back(application.build());
+  const auto app = [&config](codegen::Context &own, std::vector<GeneratedFile> &to) {
+    to.push_back(codegen::Application(own, config).app());
+  };
+  const auto build = [&config](codegen::Context &own, std::vector<GeneratedFile> &to) {
+    to.push_back(codegen::Application(own, config).build());
+  };
+  codegen::generateUnits(context, {codegen::generateDispatch, app, build},
+                         files); // dispatch: of all libraries
   return files;
 }
 

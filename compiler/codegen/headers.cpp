@@ -310,27 +310,40 @@ bool rootHasLifecycle(Context &context, const Root &root, std::string_view lower
   return false;
 }
 
-void generateHeaders(Context &context, std::vector<GeneratedFile> &files) {
+std::vector<const Symbol *> headersOf(const Context &context) {
   const Library &library = *context.own;
+  std::vector<const Symbol *> symbols;
   for (const auto &other : context.program.libraries)
     for (const TypeSymbol *t : other->types)
       if (other.get() != &library && t->onDemand && !library.isBuilt) // the project has them
-        files.push_back(HeaderBuilder(context).structure(t));
-  for (const TypeSymbol *t : library.types) {
+        symbols.push_back(t);
+  symbols.insert(symbols.end(), library.types.begin(), library.types.end());
+  symbols.insert(symbols.end(), library.globals.begin(), library.globals.end());
+  symbols.insert(symbols.end(), library.pous.begin(), library.pous.end());
+  return symbols;
+}
+
+GeneratedFile generateHeader(Context &context, const Symbol *symbol) {
+  HeaderBuilder builder(context);
+  switch (symbol->kind) {
+  case SymbolKind::Type: {
+    const auto *t = static_cast<const TypeSymbol *>(symbol);
     if (t->type->kind == TypeKind::Structure && t->decl != nullptr &&
         t->decl->kind == DeclKind::Structure)
-      files.push_back(HeaderBuilder(context).structure(t));
-    else if (t->type->kind == TypeKind::Enumeration && typeAs<EnumType>(t->type)->symbol == t)
-      files.push_back(HeaderBuilder(context).enumeration(t));
-    else
-      files.push_back(HeaderBuilder(context).alias(t));
+      return builder.structure(t);
+    const bool own =
+        t->type->kind == TypeKind::Enumeration && typeAs<EnumType>(t->type)->symbol == t;
+    return own ? builder.enumeration(t) : builder.alias(t);
   }
-  for (const GlobalsSymbol *g : library.globals)
-    files.push_back(HeaderBuilder(context).globals(g));
-  for (const PouSymbol *p : library.pous)
-    files.push_back(p->isFunction()    ? HeaderBuilder(context).function(p)
-                    : p->isInterface() ? HeaderBuilder(context).interface(p)
-                                       : HeaderBuilder(context).block(p));
+  case SymbolKind::Globals:
+    return builder.globals(static_cast<const GlobalsSymbol *>(symbol));
+  default: {
+    const auto *p = static_cast<const PouSymbol *>(symbol);
+    return p->isFunction()    ? builder.function(p)
+           : p->isInterface() ? builder.interface(p)
+                              : builder.block(p);
+  }
+  }
 }
 
 } // namespace stc::codegen

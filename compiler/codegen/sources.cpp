@@ -157,35 +157,95 @@ bool hasConfiguredValues(const Program &program) {
       [](const SlotPlace &entry) { return entry.decl != nullptr && entry.decl->init != nullptr; });
 }
 
-/// Does now what copies of the context would do each for itself, or at once.
-static void prepare(Context &context) {
-  context.addressed.prepare();
-  context.repetition.prepare();
-  for (const auto &library : context.program.libraries)
-    for (const TypeSymbol *t : library->types)
-      static_cast<void>(alignmentOf(t->type)); // keeps its result
+/// Gives all names in one order, and does once what keeps its result for all threads.
+static void prepare(Context &context, const std::vector<const Symbol *> &headers) {
+  for (const Symbol *symbol : headers)
+    static_cast<void>(context.names.header(symbol));
+  for (const auto &library : context.program.libraries) {
+    for (const TypeSymbol *t : library->types) {
+      static_cast<void>(context.names.header(t));
+      static_cast<void>(alignmentOf(t->type));
+    }
+    for (const GlobalsSymbol *g : library->globals)
+      static_cast<void>(context.names.header(g));
+    for (const PouSymbol *p : library->pous)
+      static_cast<void>(context.names.header(p));
+  }
 }
 
-void generateSources(Context &context, std::vector<GeneratedFile> &files) {
-  typesAndLists(context, std::string(context.names.space(context.own)) + "/", files);
+namespace {
+
+/// A context for each of several threads.
+class Contexts {
+public:
+  /// The first thread has `whole` itself, if it may.
+  Contexts(Context &whole, unsigned threads, bool mayUseWhole)
+      : first_(mayUseWhole ? &whole : nullptr) {
+    for (unsigned i = mayUseWhole ? 1 : 0; i < threads; ++i)
+      copies_.emplace_back(whole);
+  }
+  Context &of(unsigned thread) {
+    if (first_ == nullptr)
+      return copies_[thread];
+    return thread == 0 ? *first_ : copies_[thread - 1];
+  }
+
+private:
+  Context *first_;
+  std::deque<Context> copies_;
+};
+
+using Files = std::vector<GeneratedFile>;
+
+void moveTo(Files &files, std::vector<Files> &parts) {
+  for (Files &part : parts)
+    std::move(part.begin(), part.end(), std::back_inserter(files));
+}
+
+} // namespace
+
+/// Sources of POUs, and the one before them.
+static void generateSources(Context &context, const std::vector<const PouSymbol *> &pous,
+                            unsigned threads, Files &files) {
+  Contexts contexts(context, threads, true);
+  std::vector<Files> parts(pous.size() + 1);
+  Workers::each(parts.size(), threads, [&](size_t i, unsigned thread) {
+    Context &own = contexts.of(thread);
+    if (i == 0)
+      typesAndLists(own, std::string(own.names.space(own.own)) + "/", parts[i]);
+    else
+      pou(own, pous[i - 1], parts[i]);
+  });
+  moveTo(files, parts);
+}
+
+void generateUnits(Context &context, const std::vector<Generator> &others, Files &files) {
+  const std::vector<const Symbol *> headers = headersOf(context);
+  prepare(context, headers);
   std::vector<const PouSymbol *> pous;
   std::copy_if(context.own->pous.begin(), context.own->pous.end(), std::back_inserter(pous),
                [](const PouSymbol *p) { return !p->isInterface(); });
-  size_t bytes = 0;
-  for (const File *file : context.program.files)
-    bytes += context.program.sources.file(file->id).text().size();
-  const unsigned threads = Workers(context.program.settings.jobs).threadsFor(pous.size(), bytes);
-  if (threads > 1)
-    prepare(context);
-  std::deque<Context> others;
-  for (unsigned i = 1; i < threads; ++i)
-    others.emplace_back(context);
-  std::vector<std::vector<GeneratedFile>> parts(pous.size());
-  Workers::each(pous.size(), threads, [&](size_t i, unsigned thread) {
-    pou(thread == 0 ? context : others[thread - 1], pous[i], parts[i]);
-  });
-  for (std::vector<GeneratedFile> &part : parts)
-    std::move(part.begin(), part.end(), std::back_inserter(files));
+  const unsigned threads =
+      Workers(context.program.settings.jobs).threadsFor(pous.size(), textBytes(context.program));
+  // What takes long comes first. All but headers is one part; what the sources need to know of the
+  // whole program goes to `context` itself, which nobody else uses meanwhile.
+  std::vector<Generator> parts = others;
+  parts.emplace_back([&context](Context &, Files &) { context.addressed.prepare(); });
+  parts.emplace_back([&context](Context &, Files &) { context.repetition.prepare(); });
+  std::vector<Files> made(parts.size());
+  std::vector<GeneratedFile> heads(headers.size());
+  {
+    Contexts contexts(context, threads, threads == 1);
+    Workers::each(parts.size() + headers.size(), threads, [&](size_t i, unsigned thread) {
+      if (i < parts.size())
+        parts[i](contexts.of(thread), made[i]);
+      else
+        heads[i - parts.size()] = generateHeader(contexts.of(thread), headers[i - parts.size()]);
+    });
+  }
+  std::move(heads.begin(), heads.end(), std::back_inserter(files));
+  generateSources(context, pous, threads, files);
+  moveTo(files, made);
 }
 
 } // namespace stc::codegen

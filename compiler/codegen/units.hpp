@@ -4,15 +4,24 @@
 
 #include "compiler/codegen/generated_source.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace stc::codegen {
 
-/// Headers of all types, POUs and variable lists of the context's own library.
-void generateHeaders(Context &context, std::vector<GeneratedFile> &files);
-/// Sources of all its POUs, and one for the initial values of structures and variable lists.
-void generateSources(Context &context, std::vector<GeneratedFile> &files);
+/// Something that is generated apart from everything else.
+using Generator = std::function<void(Context &context, std::vector<GeneratedFile> &files)>;
+
+/// Headers of all types, variable lists and POUs of the context's own library, then its sources:
+/// one for the initial values of structures and variable lists, and those of the POUs; then
+/// `others`. By several threads, each of which has a context of its own.
+void generateUnits(Context &context, const std::vector<Generator> &others,
+                   std::vector<GeneratedFile> &files);
+
+/// What has a header in the own library: types, variable lists, POUs.
+[[nodiscard]] std::vector<const Symbol *> headersOf(const Context &context);
+[[nodiscard]] GeneratedFile generateHeader(Context &context, const Symbol *symbol);
 
 /// `struct T { … };` with what belongs to it is needed by the application as well: the variables of
 /// a root.

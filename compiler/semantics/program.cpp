@@ -2,6 +2,13 @@
 
 namespace stc {
 
+size_t textBytes(const Program &program) {
+  size_t bytes = 0;
+  for (const ast::File *file : program.files)
+    bytes += program.sources.file(file->id).text().size();
+  return bytes;
+}
+
 std::string pathText(const StatePath &path) {
   std::string text(path.root->name.text);
   const Type *type = path.root->kind == SymbolKind::Pou

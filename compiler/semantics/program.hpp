@@ -211,6 +211,9 @@ struct Program {
   std::deque<GlobalsSymbol> globalsStorage;
 };
 
+/// Bytes of the text of the project's own files: whether threads are worth it.
+[[nodiscard]] size_t textBytes(const Program &program);
+
 /// Declares and checks `files` as the user's project, pulling in what they use of `index`.
 /// Reports everything wrong to program.diagnostics; program is fit for codegen when no error was
 /// reported.

@@ -82,7 +82,8 @@ struct VarSymbol : Symbol {
   bool initChecked = false; ///< the initial value has been checked (or is being checked)
   bool initRunning = false; ///< is being checked: meeting it again is a circle
   // Of the lints (lint/lint.hpp).
-  uint8_t uses = 0;                     ///< bits of Use
+  uint8_t uses = 0;                     ///< bits of Use: in the POU that it belongs to
+  uint8_t usesElsewhere = 0;            ///< and in others; several threads set them (atomic_ref)
   const ast::Expr *earlyRead = nullptr; ///< the first read, when nothing can have written before
   uint32_t earlyLoop = 0;               ///< the outermost loop of that read; 0: none
   uint32_t lastWrite = 0;               ///< the number of the last write

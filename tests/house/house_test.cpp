@@ -38,7 +38,7 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
      {"compiler/semantics/checking", "compiler/semantics/context", "compiler/semantics",
       "compiler/syntax", "compiler/source"}},
     {"compiler/semantics/lint",
-     {"compiler/semantics/context", "compiler/semantics", "compiler/syntax"}},
+     {"compiler/semantics/context", "compiler/semantics", "compiler/syntax", "compiler/source"}},
     {"compiler/semantics/sharing", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
     {"compiler/semantics/program",
      {"compiler/semantics/lint", "compiler/semantics/statements", "compiler/semantics/checking",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace stc::lint {
 
@@ -123,7 +124,7 @@ static bool statement(Context &c, Stmt *stmt) {
     c.statementCall = nullptr;
     if (expr->kind == ExprKind::Call) {
       const auto *call = as<CallExpr>(expr);
-      c.ignored.push_back(call);
+      c.found->ignored.push_back(call);
       if (call->resolved == Callee::Function && call->pou != nullptr)
         ++c.functionCalls[call->pou->decl].asStatement;
     }
@@ -270,10 +271,7 @@ static void unchangingCondition(Context &c, const Expr *condition, const Loop &l
     if (names.find(name) == std::string::npos)
       names += (names.empty() ? "" : ", ") + name;
   }
-  report(c, Code::EndlessLoop, condition->span, "once begun, this loop never ends",
-         "nothing in the loop changes " + names)
-      .label(where, "this loop")
-      .help("change " + names + " in the loop, or leave it with EXIT");
+  c.found->conditions.push_back({condition, where, std::move(names), std::move(variables)});
 }
 
 static bool whileLoop(Context &c, WhileStmt *stmt) {
@@ -324,7 +322,7 @@ static void forLoop(Context &c, ForStmt *stmt) {
     read(c, stmt->by);
   write(c, stmt->variable);
   if (VarSymbol *root = rootVariable(stmt->variable))
-    root->uses |= kUseRead; // counting is using
+    markUse(c, root, kUseRead); // counting is using
   const auto value = [](const Expr *e) {
     return e->constant != nullptr && isLiteral(e) ? std::optional(e->constant->integer)
                                                   : std::nullopt;

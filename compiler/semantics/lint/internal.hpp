@@ -38,19 +38,43 @@ struct CallCount {
   unsigned asStatement = 0;
 };
 
-/// The state of one look through a library (or the project).
+/// A loop whose condition nothing in its body changes.
+struct StillCondition {
+  const ast::Expr *condition = nullptr;
+  Span loop;         ///< its first word
+  std::string names; ///< `a`, `b`
+  std::vector<const VarSymbol *> variables;
+};
+
+/// A VAR_IN_OUT of an instance that nothing in its POU has called before.
+struct EarlyInOut {
+  const ast::MemberExpr *member = nullptr;
+  const VarSymbol *variable = nullptr;
+  const VarSymbol *instance = nullptr;
+};
+
+/// What one thread has found in the bodies of a POU.
+struct Findings {
+  std::optional<Diagnostics> reports;
+  // What others may do to the variables decides.
+  std::vector<StillCondition> conditions;
+  std::vector<EarlyInOut> inOuts;
+  std::vector<const ast::CallExpr *> ignored; ///< calls of functions whose result nobody takes
+};
+
+/// The state of one look through a library (or the project); of several threads each has one, which
+/// have their bodies in common.
 struct Context {
   Program &program;
-  std::vector<Body> bodies;
-  size_t current = 0; ///< index in bodies of the body that is walked
-  std::unordered_set<const ast::PouDecl *> walked;
+  std::vector<Body> &bodies;
+  size_t current = 0;        ///< index in bodies of the body that is walked
+  Findings *found = nullptr; ///< of its POU
   std::unordered_set<const ast::PouDecl *> resultsWritten;
   std::unordered_set<const PouSymbol *> usedPous;
   std::unordered_set<const VarSymbol *> usedOutside; ///< by VAR_CONFIG and VAR_ACCESS
   std::unordered_set<Ident> resultsTaken; ///< names of methods whose result somebody takes
   std::unordered_set<const Type *> usedTypes;
   std::unordered_map<const ast::PouDecl *, size_t> bodyOf;
-  std::vector<const ast::CallExpr *> ignored; ///< calls of functions whose result nobody takes
   std::unordered_map<const ast::PouDecl *, bool> purity;
   unsigned purityCalls = 0; ///< isPure() within isPure()
   std::unordered_map<const ast::PouDecl *, CallCount> functionCalls;
@@ -66,19 +90,34 @@ struct Context {
   unsigned conditional = 0; ///< depth of what need not run
   bool mayHaveLeft = false; ///< a RETURN stands before
 
-  explicit Context(Program &of) : program(of) {}
+  Context(Program &of, std::vector<Body> &all) : program(of), bodies(all) {}
   Context(const Context &) = delete;
   Context &operator=(const Context &) = delete;
 };
 
 inline Diagnostic &report(Context &c, Code code, Span where, std::string message,
                           std::string label = {}) {
-  return c.program.diagnostics.report(code, where, std::move(message), std::move(label));
+  if (c.found == nullptr)
+    return c.program.diagnostics.report(code, where, std::move(message), std::move(label));
+  if (!c.found->reports)
+    c.found->reports = c.program.diagnostics.part();
+  return c.found->reports->report(code, where, std::move(message), std::move(label));
 }
 /// The text of a short place; else `…`.
 [[nodiscard]] std::string text(const Context &c, Span span);
 
 // lint.cpp: bodies, uses of variables
+/// One of c.bodies.
+void walk(Context &c, size_t index);
+/// Constants are used by bounds and lengths, too.
+void typeExpr(Context &c, ast::TypeExpr *type);
+void initial(Context &c, ast::Expr *init);
+/// Notes bits of Use.
+void markUse(const Context &c, VarSymbol *variable, uint8_t bits);
+/// Bits of Use of a variable of a POU, when all bodies have been walked.
+[[nodiscard]] inline unsigned usesOf(const VarSymbol *variable) {
+  return unsigned{variable->uses} | variable->usesElsewhere;
+}
 void read(Context &c, ast::Expr *expr);
 void write(Context &c, ast::Expr *target);
 void takeAddress(Context &c, ast::Expr *expr);
@@ -92,7 +131,8 @@ void markUsed(Context &c, const Type *type);
 
 // recursion.cpp
 void reportRecursion(Context &c);
-void reportIgnored(Context &c);
+/// Of calls whose result nobody takes.
+void reportIgnored(Context &c, const std::vector<const ast::CallExpr *> &ignored);
 
 // flow.cpp: statements; the result says whether what follows can run
 bool block(Context &c, ast::Block statements);

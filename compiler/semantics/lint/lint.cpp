@@ -5,17 +5,14 @@
 #include "compiler/syntax/visit.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace stc::lint {
 
 using namespace ast;
 
-static void walk(Context &c, PouDecl *decl, PouDecl *owner, PouSymbol *pou);
 static void declarations(Context &c, std::span<VarDecl *const> variables);
-static void typeExpr(Context &c, TypeExpr *type);
 static void construct(Context &c, std::span<Argument> arguments);
-static void initial(Context &c, Expr *init);
-static void usePath(Context &c, const StatePath &path, const VarSymbol *end);
 static void readBinary(Context &c, BinaryExpr *expr);
 static void call(Context &c, CallExpr *expr);
 
@@ -52,69 +49,15 @@ std::string text(const Context &c, Span span) {
   return usable ? std::string(all) : "…";
 }
 
-void run(Program &program, Library &library) {
-  Context c(program);
-  for (PouSymbol *pou : library.pous) {
-    PouDecl *decl = pou->decl;
-    walk(c, decl, decl, pou);
-    for (PouDecl *method : decl->methods)
-      walk(c, method, decl, pou);
-    for (PouDecl *action : decl->actions)
-      walk(c, action, decl, pou);
-    for (PropertyDecl *property : decl->properties) {
-      if (property->get != nullptr)
-        walk(c, property->get, decl, pou);
-      if (property->set != nullptr)
-        walk(c, property->set, decl, pou);
-    }
-  }
-  for (GlobalsSymbol *globals : library.globals) {
-    for (VarSymbol *v : globals->variables) {
-      if (v->decl != nullptr) {
-        typeExpr(c, v->decl->type);
-        initial(c, v->decl->init);
-      }
-      markUsed(c, v->type);
-    }
-  }
-  for (const SlotPlace &slot : c.program.slotPlaces)
-    usePath(c, slot.path, slot.variable);
-  for (const AccessPath &access : c.program.accessPaths)
-    usePath(c, access.path, nullptr);
-  for (const Body &body : c.bodies) {
-    reportVariables(c, body);
-    reportResults(c, body);
-  }
-  reportRecursion(c);
-  reportIgnored(c);
-  if (library.isUser && c.program.diagnostics.wants(Code::UnservedAxis))
-    reportAxes(c, library);
-  if (c.program.diagnostics.wants(Code::UnusedPou))
-    reportUnusedPous(c, library);
-}
+static void declarations(Context &c, std::span<VarDecl *const> variables);
+static void construct(Context &c, std::span<Argument> arguments);
+static void readBinary(Context &c, BinaryExpr *expr);
+static void call(Context &c, CallExpr *expr);
 
-/// VAR_CONFIG and VAR_ACCESS reach what nothing else may name.
-static void usePath(Context &c, const StatePath &path, const VarSymbol *end) {
-  const auto mark = [&c](const VarSymbol *v) { c.usedOutside.insert(v); };
-  if (path.root != nullptr && path.root->kind == SymbolKind::Variable)
-    mark(static_cast<const VarSymbol *>(path.root));
-  for (const PathStep &step : path.steps) {
-    if (step.member != nullptr)
-      mark(step.member);
-  }
-  if (end != nullptr)
-    mark(end);
-}
-
-static void walk(Context &c, PouDecl *decl, PouDecl *owner, PouSymbol *pou) {
-  if (!c.walked.insert(decl).second)
-    return;
-  c.current = c.bodies.size();
-  c.bodyOf.emplace(decl, c.current);
-  Body &body = c.bodies.emplace_back();
-  body.decl = decl;
-  body.owner = owner;
-  body.pou = pou;
+void walk(Context &c, size_t index) {
+  c.current = index;
+  Body &body = c.bodies[index];
+  PouDecl *const decl = body.decl;
   body.hasLabels = containsLabel(decl->body);
   body.sideEffects = decl->external || decl->kind != DeclKind::Function;
   c.loops.clear();
@@ -137,8 +80,7 @@ static void declarations(Context &c, std::span<VarDecl *const> variables) {
   }
 }
 
-/// Constants are used by bounds and lengths, too.
-static void typeExpr(Context &c, TypeExpr *type) {
+void typeExpr(Context &c, TypeExpr *type) {
   if (type == nullptr)
     return;
   switch (type->kind) {
@@ -185,7 +127,7 @@ static void construct(Context &c, std::span<Argument> arguments) {
   }
 }
 
-static void initial(Context &c, Expr *init) {
+void initial(Context &c, Expr *init) {
   if (init == nullptr)
     return;
   if (init->kind != ExprKind::Aggregate) {
@@ -206,24 +148,54 @@ static void initial(Context &c, Expr *init) {
   items(items, as<AggregateExpr>(init)->items);
 }
 
+/// It belongs to the POU whose bodies this thread walks: what they do to it is known in the order
+/// of the text.
+static bool isOfPou(const Context &c, const VarSymbol *variable) {
+  const PouSymbol *owner = variable->owner;
+  const PouDecl *here = c.bodies[c.current].owner;
+  return owner != nullptr &&
+         (owner->decl == here || (owner->owner != nullptr && owner->owner->decl == here));
+}
+
 bool isOwnLocal(const Context &c, const VarSymbol *variable) {
-  return variable->isResult || variable->lintBody == c.current + 1;
+  return variable->isResult || (isOfPou(c, variable) && variable->lintBody == c.current + 1);
+}
+
+/// Of global variables and fields nobody asks how they are used.
+static void useElsewhere(VarSymbol *variable, uint8_t bits) {
+  if (variable->owner == nullptr)
+    return;
+  std::atomic_ref<uint8_t> uses(variable->usesElsewhere);
+  if ((uses.load(std::memory_order_relaxed) & bits) != bits)
+    uses.fetch_or(bits, std::memory_order_relaxed);
+}
+
+void markUse(const Context &c, VarSymbol *variable, uint8_t bits) {
+  if (isOfPou(c, variable))
+    variable->uses |= bits;
+  else
+    useElsewhere(variable, bits);
 }
 
 static void use(Context &c, VarSymbol *variable, uint8_t bits, const Expr *where) {
-  if ((bits & kUseRead) != 0 && (variable->uses & (kUseWritten | kUseAddress)) == 0 &&
-      (bits & (kUseWritten | kUseAddress)) == 0 && variable->earlyRead == nullptr) {
+  const bool writes = (bits & (kUseWritten | kUseAddress)) != 0;
+  if (writes && variable->isResult && variable->owner != nullptr)
+    c.resultsWritten.insert(variable->owner->decl);
+  if (!isOfPou(c, variable)) {
+    useElsewhere(variable, bits);
+    return;
+  }
+  if ((bits & kUseRead) != 0 && (variable->uses & (kUseWritten | kUseAddress)) == 0 && !writes &&
+      variable->earlyRead == nullptr) {
     variable->earlyRead = where;
     variable->earlyLoop = c.loopStart;
   }
-  if ((bits & (kUseWritten | kUseAddress)) != 0) {
+  if (writes) {
     variable->lastWrite = ++c.writes;
     // In the loop's next round the write comes before the read.
     if ((variable->uses & (kUseWritten | kUseAddress)) == 0 && variable->earlyRead != nullptr &&
         variable->earlyLoop != 0 && variable->earlyLoop == c.loopStart)
       variable->earlyRead = nullptr;
-    if (variable->isResult && variable->owner != nullptr)
-      c.resultsWritten.insert(variable->owner->decl);
   }
   variable->uses |= bits;
 }
@@ -267,13 +239,7 @@ static void inOutBeforeCall(Context &c, const MemberExpr *member, const VarSymbo
       !body.owner->methods.empty() || !body.owner->actions.empty() || c.loopStart != 0 ||
       body.hasLabels || !isOwnLocal(c, instance))
     return;
-  report(c, Code::InOutBeforeCall, member->span,
-         "`" + std::string(member->name.text) + "` of `" + std::string(instance->name.text) +
-             "` is used before the first call of the block",
-         "refers to nothing yet")
-      .label(variable->name.span, "a VAR_IN_OUT gets its variable at the call")
-      .help("call `" + std::string(instance->name.text) +
-            "(…)` first, or use the variable that is passed to it");
+  c.found->inOuts.push_back({member, variable, instance});
 }
 
 /// CODESYS lets other code look at a block's own variables.

@@ -82,8 +82,8 @@ static bool isPure(Context &c, const PouSymbol *pou) {
   return pure;
 }
 
-void reportIgnored(Context &c) {
-  for (const CallExpr *call : c.ignored) {
+void reportIgnored(Context &c, const std::vector<const CallExpr *> &ignored) {
+  for (const CallExpr *call : ignored) {
     const bool function = call->resolved == Callee::Function && call->pou != nullptr &&
                           call->pou->decl->returnType != nullptr;
     const bool builtin =

@@ -38,7 +38,7 @@ void assignment(Context &c, AssignStmt *stmt) {
     write(c, target);
     if (stmt->op == AssignOp::Set || stmt->op == AssignOp::Reset) { // keeps its value otherwise
       if (VarSymbol *root = rootVariable(target))
-        root->uses |= kUseRead;
+        markUse(c, root, kUseRead);
     }
     const Expr *value = i + 1 == stmt->targets.size() ? stmt->value : stmt->targets[i + 1];
     if (stmt->op == AssignOp::Assign && isPlainRead(value) && sameExpr(target, value))

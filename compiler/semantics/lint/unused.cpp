@@ -74,17 +74,18 @@ static void reportVariable(Context &c, const Body &body, VarSymbol *v) {
     return;
   const PouDecl *decl = body.decl;
   const std::string name(v->name.text);
-  const bool written = (v->uses & (kUseWritten | kUseAddress)) != 0;
+  const unsigned uses = usesOf(v);
+  const bool written = (uses & (kUseWritten | kUseAddress)) != 0;
   const bool filled = decl->kind == DeclKind::Function || decl->kind == DeclKind::Method;
   switch (v->section) {
   case Section::Local:
   case Section::Temp:
   case Section::Stat:
   case Section::Instance:
-    if (v->uses == 0 && !doesSomethingItself(v->type))
+    if (uses == 0 && !doesSomethingItself(v->type))
       report(c, Code::UnusedVariable, v->name.span, "`" + name + "` is never used", "only declared")
           .help("remove the declaration");
-    else if (endsWithCall(decl, v) && (v->uses & kUseRead) == 0 && isElementary(v->type))
+    else if (endsWithCall(decl, v) && (uses & kUseRead) == 0 && isElementary(v->type))
       report(c, Code::NeverRead, v->name.span, "`" + name + "` is assigned but never read",
              "its value is not used")
           .help("use the value, or remove the variable and its assignments");
@@ -119,7 +120,7 @@ static void reportVariable(Context &c, const Body &body, VarSymbol *v) {
 }
 
 static void reportUnused(Context &c, const Body &body, VarSymbol *v) {
-  if (v->uses != 0)
+  if (usesOf(v) != 0)
     return;
   report(c, Code::UnusedParameter, v->name.span,
          "the input `" + std::string(v->name.text) + "` of `" + std::string(body.decl->name.text) +

@@ -28,6 +28,11 @@ bool isSharedVariable(const Sharing &sharing, const VarSymbol *v) {
   return alias ? sharing.contents.contains(v) : sharing.variables.contains(v);
 }
 
+/// Of its text.
+size_t bytesOf(Block block) {
+  return block.empty() ? 0 : block.back()->span.end - block.front()->span.begin;
+}
+
 const VarSymbol *variableOf(const Expr *e) {
   const Symbol *symbol = e->kind == ExprKind::Name     ? as<NameExpr>(e)->symbol
                          : e->kind == ExprKind::Member ? as<MemberExpr>(e)->symbol
@@ -198,12 +203,14 @@ void SharingGraph::readBodies(std::span<const PouSymbol *const> pous) {
     if (!read_.try_emplace(pou).second || !pou->checked || pou->decl->external)
       continue;
     fresh.push_back(pou);
-    bytes += pou->decl->span.end - pou->decl->span.begin;
+    bytes += bytesOf(pou->decl->body);
   }
+  // Of a single task only what it writes is asked.
+  const AccessDetail detail = tasks_.size() == 1 ? AccessDetail::Writes : AccessDetail::Places;
   const unsigned threads = Workers(program_.settings.jobs).threadsFor(fresh.size(), bytes);
   std::vector<Storage> others(threads - 1);
   Workers::each(fresh.size(), threads, [&](size_t i, unsigned thread) {
-    read_.at(fresh[i]) = readAccess(thread == 0 ? storage_ : others[thread - 1], fresh[i]);
+    read_.at(fresh[i]) = readAccess(thread == 0 ? storage_ : others[thread - 1], fresh[i], detail);
   });
 }
 
@@ -327,8 +334,7 @@ bool SharingGraph::flowOnce(uint32_t task, const PouAccess &access) {
   return changed;
 }
 
-/// Of a single task only what it writes is asked, by variables and programs: where in them, and by
-/// which address, does not matter.
+/// Where in a variable or program a single task writes, and by which address, does not matter.
 void SharingGraph::useRoot(const PlaceAccess &access) {
   if (access.place.base == PlacePath::Base::Root)
     rootNode(access.place.symbol).use(0, access.flags, access.span);

@@ -162,7 +162,11 @@ void access(Reader &r, const Expr *e, unsigned scalar, unsigned whole) {
 }
 
 void note(Reader &r, PlacePath place, unsigned flags, Span span, const Expr *named) {
-  if (place.base != PlacePath::Base::None)
+  constexpr unsigned kWrites = kAccessWrite | kAccessWholeWrite | kAccessUnknown | kAccessCall;
+  const bool asked = r.detail == AccessDetail::Places
+                         ? place.base != PlacePath::Base::None
+                         : place.base == PlacePath::Base::Root && (flags & kWrites) != 0;
+  if (asked)
     r.out.accesses.push_back({std::move(place), flags, span, named});
 }
 
@@ -240,7 +244,7 @@ static PlacePath memberPlace(Reader &r, const MemberExpr *m, bool walk) {
   if (base.base == PlacePath::Base::Self && base.symbol == nullptr) // THIS^.v
     return {PlacePath::Base::Self, v, {}};
   if (!isUnionType(m->base->type)) // its members share their bytes
-    base.steps.push_back({v, 0});
+    enter(r, base, {v, 0});
   return base;
 }
 
@@ -259,7 +263,7 @@ static PlacePath elementPlace(Reader &r, const IndexExpr *x, bool walk) {
         note(r, at, kAccessRead, x->span);
       at = behind(addressVariable(x->base));
     } else if (at.base != PlacePath::Base::None) {
-      at.steps.push_back({nullptr, i->constant != nullptr ? i->constant->integer : kAnyElement});
+      enter(r, at, {nullptr, i->constant != nullptr ? i->constant->integer : kAnyElement});
     }
     t = t == nullptr ? nullptr : indexStep(t);
   }
@@ -373,8 +377,8 @@ void escape(Reader &r, const Expr *e) {
 
 namespace stc {
 
-PouAccess readAccess(Storage &storage, const PouSymbol *pou) {
-  access::Reader reader{storage, {}};
+PouAccess readAccess(Storage &storage, const PouSymbol *pou, AccessDetail detail) {
+  access::Reader reader{storage, {}, detail};
   access::block(reader, pou->decl->body);
   return std::move(reader.out);
 }

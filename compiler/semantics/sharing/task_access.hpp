@@ -91,8 +91,14 @@ struct PouAccess {
   std::vector<AxisCall> axes;
 };
 
+/// How much of a body's accesses is asked.
+enum class AccessDetail : uint8_t {
+  Places, ///< all of them, and where inside of a variable they are
+  Writes, ///< which global variables and programs are written or called: those of a single task
+};
+
 /// What the body of a POU does.
-[[nodiscard]] PouAccess readAccess(Storage &storage, const PouSymbol *pou);
+[[nodiscard]] PouAccess readAccess(Storage &storage, const PouSymbol *pou, AccessDetail detail);
 /// What initial values bind: they hold before any task runs.
 [[nodiscard]] PouAccess readInitial(Storage &storage,
                                     const std::vector<const VarSymbol *> &variables);

@@ -130,7 +130,7 @@ void call(Reader &r, const CallExpr *e) {
           instance.base == PlacePath::Base::None)
         continue;
       PlacePath member = instance;
-      member.steps.push_back({a.parameter, 0});
+      enter(r, member, {a.parameter, 0});
       const bool scalar = isScalarValue(a.parameter->type);
       note(r, std::move(member),
            a.output ? (scalar ? kAccessRead : kAccessWholeRead)

@@ -11,6 +11,7 @@ namespace stc::access {
 struct Reader {
   Storage &storage;
   PouAccess out;
+  AccessDetail detail = AccessDetail::Places;
 };
 
 void value(Reader &r, const ast::Expr *e);
@@ -22,6 +23,11 @@ void call(Reader &r, const ast::CallExpr *e);
 void accessor(Reader &r, const ast::Expr *object, const Symbol *property, bool writes, Span span);
 void escape(Reader &r, const ast::Expr *e);
 void flow(Reader &r, const VarSymbol *target, const ast::Expr *value);
+/// Goes on to something inside of the place.
+inline void enter(const Reader &r, PlacePath &place, AccessStep step) {
+  if (r.detail == AccessDetail::Places)
+    place.steps.push_back(step);
+}
 /// The place, after its indices and the pointers on the way to it have been read.
 PlacePath place(Reader &r, const ast::Expr *e, bool walk);
 
