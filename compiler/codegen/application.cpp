@@ -55,7 +55,7 @@ public:
     out += copies_.settle();
     init(out);
     tasks(out);
-    out += "\n[[maybe_unused]] constexpr uint32_t kNo = ::stride::kNoIndex;\n" + tables;
+    out += tables;
     plc_.write();
     out += plc_.text();
     sharing(out);

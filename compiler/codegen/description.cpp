@@ -52,18 +52,14 @@ void describeApplication(std::string &out, const Described &app) {
 }
 
 void describeTables(std::string &out, const Described &app) {
-  table(out, "types", app.types.typeCount(), "kTypes");
-  table(out, "members", app.types.memberCount(), "kMembers");
-  table(out, "enumerators", app.types.enumeratorCount(), "kEnumerators");
-  table(out, "roots", app.types.rootCount(), "kRoots");
+  for (const char *name : {"types", "members", "enumerators", "roots"})
+    field(out, name, "nullptr");
   table(out, "tasks", app.config.tasks.size(), "kTasks");
   table(out, "axisGroups", app.plc.groups(), "kAxisGroups");
   table(out, "drives", app.plc.drives(), "kDrives");
   field(out, "files", "nullptr");
-  field(out, "typeCount", app.types.typeCount());
-  field(out, "memberCount", app.types.memberCount());
-  field(out, "enumeratorCount", app.types.enumeratorCount());
-  field(out, "rootCount", app.types.rootCount());
+  for (const char *name : {"typeCount", "memberCount", "enumeratorCount", "rootCount"})
+    field(out, name, "0");
   field(out, "taskCount", app.config.tasks.size());
   field(out, "axisGroupCount", app.plc.groups());
   field(out, "driveCount", app.plc.drives());
@@ -101,6 +97,8 @@ void describeConfiguration(std::string &out, const Described &app) {
   field(out, "filesDelay", std::to_string(app.config.filesDelay));
   table(out, "units", app.config.units.size(), "kUnits");
   field(out, "unitCount", app.config.units.size());
+  field(out, "reserved3", "0");
+  field(out, "symbols", app.types.empty() ? "nullptr" : "&kSymbols");
 }
 
 } // namespace

@@ -6,6 +6,9 @@
 #include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <type_traits>
 
 namespace stc::codegen {
 
@@ -21,52 +24,59 @@ namespace {
 constexpr unsigned kHasAddress = 1;
 constexpr unsigned kExternal = 2;
 
-/// The flags of a variable as an expression: `::stride::kSymInput | ::stride::kSymRetain`.
+/// Flags of a variable as runtime/app/abi.h has them in lines of symbols: letters, and the digit
+/// that belongs to the one before it.
 class Flags {
 public:
-  Flags &add(bool set, std::string_view name) {
+  Flags &add(bool set, char letter) {
     if (set)
-      text_.append(text_.empty() ? "::stride::kSym" : " | ::stride::kSym").append(name);
+      text_ += letter;
     return *this;
   }
-  /// `number << kSym…Shift`
-  Flags &addNumber(unsigned number, std::string_view shift) {
-    text_ += (text_.empty() ? "" : " | ") + std::to_string(number) + "U << ::stride::kSym";
-    text_ += shift;
+  Flags &addNumber(unsigned digit) {
+    text_ += static_cast<char>('0' + digit);
     return *this;
   }
-  [[nodiscard]] std::string text() const { return text_.empty() ? "0" : text_; }
+  [[nodiscard]] const std::string &text() const { return text_; }
 
 private:
   std::string text_;
 };
 
+constexpr char kBase = 'B';
+constexpr char kBit = 'b';
+constexpr char kConstant = 'c';
+constexpr char kHidden = 'h';
+constexpr char kLocated = 'l';
+constexpr char kSlot = 's';
+constexpr char kTypeId = 't';
+
 Flags symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
   const unsigned qualifiers = v->decl == nullptr ? 0U : v->decl->qualifiers;
   Flags flags;
-  flags.add(v->section == Section::Input, "Input")
-      .add(v->section == Section::Output, "Output")
-      .add(v->section == Section::InOut, "InOut")
-      .add((qualifiers & kQualRetain) != 0, "Retain")
-      .add((qualifiers & kQualPersistent) != 0, "Persistent")
-      .add((qualifiers & kQualNonRetain) != 0, "NonRetain")
-      .add(v->isConstant, "Constant")
-      .add(v->hidden, "Hidden")
+  flags.add(v->section == Section::Input, 'i')
+      .add(v->section == Section::Output, 'o')
+      .add(v->section == Section::InOut, 'x')
+      .add((qualifiers & kQualRetain) != 0, 'r')
+      .add((qualifiers & kQualPersistent) != 0, 'p')
+      .add((qualifiers & kQualNonRetain) != 0, 'N')
+      .add(v->isConstant, kConstant)
+      .add(v->hidden, kHidden)
       .add(v->decl != nullptr && hasAttribute(v->decl->attributes, AttributeId::InitOnOnlineChange),
-           "InitOnChange")
-      .add(qualifiedOnly, "QualifiedOnly");
+           'n')
+      .add(qualifiedOnly, 'q');
   return flags;
 }
 
 /// Flags, offset and type of a variable in the process image are not those of an ordinary one.
 Flags locatedFlags(const Location &at, Flags flags) {
   if (at.isSlot)
-    flags.add(true, "Slot").addNumber(static_cast<unsigned>(at.area), "AreaShift");
+    flags.add(true, kSlot).addNumber(static_cast<unsigned>(at.area));
   else
-    flags.add(true, "Located");
-  flags.add(at.bit >= 0, "Bit");
+    flags.add(true, kLocated);
+  flags.add(at.bit >= 0, kBit);
   if (!at.isSlot && at.bit > 0)
-    flags.addNumber(static_cast<unsigned>(at.bit), "BitShift");
+    flags.addNumber(static_cast<unsigned>(at.bit));
   return flags;
 }
 
@@ -80,11 +90,47 @@ std::string placeInImage(const Location &at) {
          std::to_string(at.byte);
 }
 
-std::string quote(std::string_view text) { return '"' + escaped(text) + '"'; }
+/// A line of symbols (runtime/app/abi.h) without its end, as part of a C++ string literal.
+class Line {
+public:
+  explicit Line(char kind, std::string_view flags = {}) {
+    text_ += kind;
+    text_ += flags;
+  }
+  Line &add(std::string_view column) {
+    ++empty_;
+    if (column.empty())
+      return *this;
+    for (; empty_ != 0; --empty_)
+      text_ += "\\t";
+    std::string plain(column);
+    // Of a name that was written by hand: such a one is none.
+    std::replace_if(
+        plain.begin(), plain.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; },
+        '?');
+    text_ += escaped(plain);
+    return *this;
+  }
+  template <class T>
+  requires std::is_integral_v<T> Line &add(T number) { return add(std::to_string(number)); }
+  /// Nothing for 0.
+  template <class T>
+  requires std::is_integral_v<T> Line &addSome(T number, int base = 10) {
+    if (number == 0)
+      return add({});
+    std::array<char, 64> digits;
+    return add({digits.data(), std::to_chars(digits.begin(), digits.end(), number, base).ptr});
+  }
+  std::string text() { return std::move(text_); }
 
-/// `, "old"` where there is one: the last column of a row.
-std::string renamedColumn(std::string_view renamed) {
-  return renamed.empty() ? std::string() : ", " + quote(renamed);
+private:
+  std::string text_;
+  size_t empty_ = 0; ///< columns that are not written yet
+};
+
+std::string offsetOf(std::string_view type, std::string_view member) {
+  std::string out = "offsetof(";
+  return out.append(type).append(", ").append(member).append(")");
 }
 
 } // namespace
@@ -188,12 +234,10 @@ void TypeTable::fillKind(Row &row, const Type *type) {
 void TypeTable::fillEnumeration(Row &row, const EnumType *type) {
   row.kind = "Enum";
   row.element = index(type->base);
-  row.firstMember = enumeratorRows_.size();
-  row.memberCount = type->enumerators.size();
   if (type->symbol->decl != nullptr)
     row.renamedFrom = renamedFrom(type->symbol->decl->attributes);
   for (const EnumeratorSymbol *x : type->enumerators)
-    enumeratorRows_.push_back("{" + quote(x->name.text) + ", " + std::to_string(x->value) + "}");
+    row.lines.push_back(Line('E').add(x->name.text).add(x->value).text());
 }
 
 void TypeTable::fillInstance(Row &row, const PouType *type) {
@@ -208,51 +252,46 @@ void TypeTable::fillInstance(Row &row, const PouType *type) {
           rootVariables({pou, false}), carriesTypeId(pou));
 }
 
-std::string TypeTable::memberRow(const Type *type, const VarSymbol *v, uint32_t typeIndex,
-                                 const std::string &owner) {
-  const Flags flags = locatedFlags(v, symbolFlags(v));
-  std::string row = "{" + quote(v->storage.empty() ? v->name.text : v->storage) + ", ";
-  std::string bit;
+void TypeTable::memberRow(Row &row, const Type *type, const VarSymbol *v, uint32_t typeIndex,
+                          const std::string &owner) {
+  Flags flags = locatedFlags(v, symbolFlags(v));
   if (v->isBit) { // offsetof is not for bits
     const Storage::BitPlace at = storage_.bit(type, v);
-    row += std::to_string(at.byte);
-    bit = " | ::stride::kSymBit | " + std::to_string(at.bit) + "U << ::stride::kSymBitShift";
+    row.offsets.push_back(std::to_string(at.byte));
+    flags.add(true, kBit).addNumber(at.bit);
   } else if (isPlaced(v)) {
-    row += placeInImage(*v->location);
+    row.offsets.push_back(placeInImage(*v->location));
   } else {
-    row.append("offsetof(").append(owner).append(", ").append(fieldName(v)).append(")");
+    row.offsets.push_back(offsetOf(owner, fieldName(v)));
   }
-  row.append(", ").append(std::to_string(typeIndex)).append(", ").append(flags.text());
-  return row.append(bit).append(renamedColumn(renamedFrom(v->decl->attributes))).append("}");
+  row.lines.push_back(Line('M', flags.text())
+                          .add(v->storage.empty() ? v->name.text : v->storage)
+                          .add(typeIndex)
+                          .add(renamedFrom(v->decl->attributes))
+                          .text());
 }
 
 void TypeTable::members(Row &row, const Type *type, const Type *base, const std::string &owner,
                         const std::vector<const VarSymbol *> &variables, bool typeId) {
-  std::vector<uint32_t> types;
-  types.reserve(variables.size());
-  const uint32_t baseIndex = base == nullptr ? 0 : index(base);
-  const uint32_t idIndex = typeId ? index(elementaryType(TypeKind::Udint)) : 0;
+  if (base != nullptr) {
+    row.lines.push_back(
+        Line('M', std::string(1, kBase)).add(typeName(base)).add(index(base)).text());
+    row.offsets.push_back(offsetOf(owner, "base__"));
+  }
+  if (typeId) {
+    row.lines.push_back(Line('M', std::string({kTypeId, kHidden}))
+                            .add("type__")
+                            .add(index(elementaryType(TypeKind::Udint)))
+                            .text());
+    row.offsets.push_back(offsetOf(owner, "type__"));
+  }
   for (const VarSymbol *v : variables)
-    types.push_back(index(v->type, v->section == Section::InOut));
-  row.firstMember = memberRows_.size();
-  if (base != nullptr)
-    memberRows_.push_back("{" + quote(typeName(base)) + ", offsetof(" + owner + ", base__), " +
-                          std::to_string(baseIndex) + ", ::stride::kSymBase}");
-  if (typeId)
-    memberRows_.push_back("{\"type__\", offsetof(" + owner + ", type__), " +
-                          std::to_string(idIndex) +
-                          ", ::stride::kSymTypeId | ::stride::kSymHidden}");
-  for (size_t i = 0; i < variables.size(); ++i)
-    memberRows_.push_back(memberRow(type, variables[i], types[i], owner));
-  row.memberCount = memberRows_.size() - row.firstMember;
+    memberRow(row, type, v, index(v->type, v->section == Section::InOut), owner);
 }
 
-/// renamedFrom and task of a root.
-static std::string lastColumns(std::string_view renamed, std::optional<uint32_t> task) {
-  std::string column = renamedColumn(renamed);
-  if (!task)
-    return column;
-  return (column.empty() ? ", nullptr" : column) + ", " + std::to_string(*task);
+/// task of a root.
+static std::string taskColumn(std::optional<uint32_t> task) {
+  return task ? std::to_string(*task) : std::string();
 }
 
 void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
@@ -263,12 +302,16 @@ void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const 
   if (renamed.empty() && !listRenamedFrom.empty())
     renamed.append(listRenamedFrom).append(".").append(variable->name.text);
   const uint32_t type = index(variable->type, variable->section == Section::InOut);
-  const std::string offset =
-      isPlaced(variable) ? placeInImage(*variable->location) : "offsetof(App__, " + place + ")";
-  rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " +
-                      quote(variable->name.text) + ", " + offset + ", " + std::to_string(type) +
-                      ", " + locatedFlags(variable, symbolFlags(variable, qualifiedOnly)).text() +
-                      lastColumns(renamed, task) + "}");
+  rootLines_.push_back(
+      Line('R', locatedFlags(variable, symbolFlags(variable, qualifiedOnly)).text())
+          .add(variable->name.text)
+          .add(type)
+          .add(list)
+          .add(taskColumn(task))
+          .add(renamed)
+          .text());
+  rootOffsets_.push_back(isPlaced(variable) ? placeInImage(*variable->location)
+                                            : offsetOf("App__", place));
 }
 
 void TypeTable::addImage() {
@@ -279,9 +322,8 @@ void TypeTable::addImage() {
       continue;
     any = true;
     const char letter = "iqm"[area];
-    rootRows_.push_back(std::string("{nullptr, \"%") + "IQM"[area] + "\", offsetof(App__, image__" +
-                        letter + "), " + std::to_string(index(image.types[area])) +
-                        ", ::stride::kSymHidden}");
+    addHidden(std::string{'%', "IQM"[area]}, index(image.types[area]),
+              std::string("image__") + letter);
   }
   if (!any)
     return;
@@ -291,19 +333,22 @@ void TypeTable::addImage() {
     index(elementaryType(kind));
 }
 
+void TypeTable::addHidden(std::string_view name, uint32_t type, std::string_view place) {
+  rootLines_.push_back(Line('R', std::string(1, kHidden)).add(name).add(type).text());
+  rootOffsets_.push_back(offsetOf("App__", place));
+}
+
 void TypeTable::addAccess(const AccessPath &access) {
   Flags own;
-  own.add(!access.decl->readWrite, "Constant");
-  std::string offset;
-  if (access.location == nullptr || access.location->isSlot)
-    offset = "offsetof(App__, " + statePath(c_.names, access.path, c_.program.user) + ")";
-  else
-    offset = placeInImage(*access.location);
-  const std::string flags = access.location != nullptr ? locatedFlags(*access.location, own).text()
-                                                       : "::stride::kSymLocated | " + own.text();
+  own.add(!access.decl->readWrite, kConstant);
+  const bool isElsewhere = access.location == nullptr || access.location->isSlot;
+  rootOffsets_.push_back(isElsewhere
+                             ? offsetOf("App__", statePath(c_.names, access.path, c_.program.user))
+                             : placeInImage(*access.location));
+  const Flags flags =
+      access.location != nullptr ? locatedFlags(*access.location, own) : own.add(true, kLocated);
   const uint32_t type = index(access.type);
-  rootRows_.push_back("{nullptr, " + quote(access.decl->name.text) + ", " + offset + ", " +
-                      std::to_string(type) + ", " + flags + "}");
+  rootLines_.push_back(Line('R', flags.text()).add(access.decl->name.text).add(type).text());
 }
 
 void TypeTable::addPool(uint64_t size) {
@@ -314,54 +359,64 @@ void TypeTable::addPool(uint64_t size) {
   row.hash = Hash().add("pool").add(size).value();
   row.element = index(elementaryType(TypeKind::Byte));
   row.elementCount = size;
-  const size_t type = types_.size();
+  const auto type = static_cast<uint32_t>(types_.size());
   types_.push_back(std::move(row));
-  rootRows_.push_back("{nullptr, \"__pool\", offsetof(App__, pool__), " + std::to_string(type) +
-                      ", ::stride::kSymHidden}");
+  addHidden("__pool", type, "pool__");
 }
 
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place,
                            std::optional<uint32_t> task) {
   const uint32_t type = index(program->type);
   const bool hidden = hasAttribute(program->decl->attributes, AttributeId::Hide);
-  rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place +
-                      "), " + std::to_string(type) + (hidden ? ", ::stride::kSymHidden" : ", 0") +
-                      lastColumns(renamedFrom(program->decl->attributes), task) + "}");
+  rootLines_.push_back(Line('R', std::string(hidden ? 1 : 0, kHidden))
+                           .add(program->name.text)
+                           .add(type)
+                           .add({})
+                           .add(taskColumn(task))
+                           .add(renamedFrom(program->decl->attributes))
+                           .text());
+  rootOffsets_.push_back(offsetOf("App__", place));
 }
 
 std::string TypeTable::text() const {
-  std::string out;
-  const auto table = [&](std::string_view type, std::string_view name,
-                         const std::vector<std::string> &rows) {
-    if (rows.empty())
-      return;
-    out.append("\nconstexpr ::stride::").append(type).append(" ").append(name).append("[] = {\n");
-    for (const std::string &row : rows)
-      out.append("    ").append(row).append(",\n");
-    out.append("};\n");
+  std::string lines;
+  std::string numbers;
+  const auto line = [&](std::string_view text) {
+    lines.append("\n    \"").append(text).append("\\n\"");
   };
-  std::vector<std::string> rows;
-  rows.reserve(types_.size());
+  const auto number = [&](std::string_view number) {
+    numbers.append("    ").append(number).append(",\n");
+  };
   for (const Row &r : types_) {
-    rows.push_back("{Kind::" + r.kind + ", " + std::to_string(r.flags) + ", " + quote(r.name) +
-                   ", sizeof(" + r.cppType + "), " + std::to_string(r.hash) + "ULL, alignof(" +
-                   r.cppType + "), " + std::to_string(r.firstMember) + ", " +
-                   std::to_string(r.memberCount) + ", " +
-                   (r.element < 0 ? std::string("kNo") : std::to_string(r.element)) + ", " +
-                   std::to_string(r.lowerBound) + ", " + std::to_string(r.elementCount) + ", " +
-                   std::to_string(r.stringLength) + ", " + std::to_string(r.typeId) +
-                   renamedColumn(r.renamedFrom) + "}");
+    line(Line('T', std::to_string(r.flags))
+             .add(r.name)
+             .addSome(r.hash, 16)
+             .add(r.element < 0 ? std::string() : std::to_string(r.element))
+             .addSome(r.lowerBound)
+             .addSome(r.elementCount)
+             .addSome(r.stringLength)
+             .addSome(r.typeId)
+             .add(r.renamedFrom)
+             .text());
+    number("uint64_t(Kind::" + r.kind + "), sizeof(" + r.cppType + "), alignof(" + r.cppType + ")");
+    for (const std::string &own : r.lines)
+      line(own);
+    for (const std::string &offset : r.offsets)
+      number(offset);
   }
-  out += "\n// {kind, flags, name, size, layoutHash, align, firstMember, memberCount, element, "
-         "lowerBound,\n"
-         "//  elementCount, stringLength, typeId, renamedFrom}";
-  table("TypeDesc", "kTypes", rows);
-  out += "\n// {name, offset, type, flags, renamedFrom}";
-  table("MemberDesc", "kMembers", memberRows_);
-  table("EnumeratorDesc", "kEnumerators", enumeratorRows_);
-  out += "\n// {list, name, offset, type, flags, renamedFrom, task}";
-  table("RootDesc", "kRoots", rootRows_);
-  return out;
+  for (const std::string &root : rootLines_)
+    line(root);
+  for (const std::string &offset : rootOffsets_)
+    number(offset);
+  if (lines.empty())
+    return {};
+  return "\n// Types, members, enumerators and roots, as runtime/app/abi.h has lines of symbols.\n"
+         "constexpr char kSymbolText[] =" +
+         lines + ";\nconstexpr uint64_t kSymbolNumbers[] = {\n" + numbers +
+         "};\nconstexpr ::stride::SymbolNumbers kNumberLists[] = {{kSymbolNumbers, "
+         "::stride::tableSize(kSymbolNumbers)}};\n"
+         "constexpr ::stride::SymbolLines kSymbols = {kSymbolText, sizeof(kSymbolText) - 1, "
+         "kNumberLists, ::stride::tableSize(kNumberLists), 0};\n";
 }
 
 } // namespace stc::codegen

@@ -22,7 +22,7 @@ public:
 
   /// The type's index.
   uint32_t index(const Type *type, bool inOut = false);
-  /// `{"limit", offsetof(…), type, flags}` of one variable that stands for itself.
+  /// One variable that stands for itself.
   /// `listRenamedFrom`: the earlier name of its list, empty without one. `task`: the only one that
   /// writes it.
   void addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
@@ -36,12 +36,10 @@ public:
   /// `task`: the only one that calls it.
   void addProgram(const PouSymbol *program, const std::string &place, std::optional<uint32_t> task);
 
-  /// `constexpr … kTypes[] = { … };` and the other tables.
+  /// `constexpr ::stride::SymbolLines kSymbols = { … };` and what it names; empty where there are
+  /// no types.
   [[nodiscard]] std::string text() const;
-  [[nodiscard]] size_t typeCount() const { return types_.size(); }
-  [[nodiscard]] size_t memberCount() const { return memberRows_.size(); }
-  [[nodiscard]] size_t enumeratorCount() const { return enumeratorRows_.size(); }
-  [[nodiscard]] size_t rootCount() const { return rootRows_.size(); }
+  [[nodiscard]] bool empty() const { return types_.empty(); }
   [[nodiscard]] Includes &includes() { return includes_; }
 
 private:
@@ -61,14 +59,14 @@ private:
     std::string name;
     std::string cppType; ///< of which size and alignment are taken
     uint64_t hash = 0;
-    size_t firstMember = 0;
-    size_t memberCount = 0;
     int64_t element = -1;
     int64_t lowerBound = 0;
     uint64_t elementCount = 0;
     uint32_t stringLength = 0;
     uint32_t typeId = 0;
     std::string_view renamedFrom;
+    std::vector<std::string> lines;   ///< of members or enumerators
+    std::vector<std::string> offsets; ///< of members, as expressions
   };
   /// A row that has its number and no content yet.
   struct Pending {
@@ -82,8 +80,9 @@ private:
   void fillKind(Row &row, const Type *type);
   void fillEnumeration(Row &row, const EnumType *type);
   void fillInstance(Row &row, const PouType *type);
-  std::string memberRow(const Type *type, const VarSymbol *v, uint32_t typeIndex,
-                        const std::string &owner);
+  void memberRow(Row &row, const Type *type, const VarSymbol *v, uint32_t typeIndex,
+                 const std::string &owner);
+  void addHidden(std::string_view name, uint32_t type, std::string_view place);
   void members(Row &row, const Type *type, const Type *base, const std::string &owner,
                const std::vector<const VarSymbol *> &variables, bool typeId = false);
 
@@ -93,9 +92,8 @@ private:
   std::unordered_map<Key, uint32_t, KeyHash> indices_;
   std::vector<Row> types_;
   std::vector<Pending> pending_;
-  std::vector<std::string> memberRows_;
-  std::vector<std::string> enumeratorRows_;
-  std::vector<std::string> rootRows_;
+  std::vector<std::string> rootLines_;
+  std::vector<std::string> rootOffsets_;
 };
 
 } // namespace stc::codegen

@@ -3,6 +3,8 @@
 // An application is one shared object (or the same objects linked statically) with one exported
 // function, stride_app_v1, that returns a constant description. All tables are constant arrays and
 // refer to each other by index; tests/unit/app/handmade_app.cpp is a complete example by hand.
+// Generated code has its types, members, enumerators and roots as text and numbers (SymbolLines),
+// of which the host makes such tables when it loads an application: runtime/app/symbol_text.hpp.
 // Free of the C++ standard library; see runtime/iec/types.h.
 //
 // State is one block of plain memory: trivially copyable and relocatable, addressed by offset. The
@@ -17,7 +19,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 9;
+inline constexpr uint32_t kAbiVersion = 10;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -50,6 +52,9 @@ enum SymbolFlags : uint32_t {
 };
 inline constexpr uint32_t kSymAreaShift = 24;
 inline constexpr uint32_t kSymBitShift = 28;
+/// SymbolFlags in lines of symbols: the letter at n stands for 1 << n. A digit after `s` (Slot) is
+/// the area, one after `b` (Bit) the number of the bit.
+inline constexpr char kSymbolFlagLetters[] = "ioxrpchBqtn.lsbN";
 
 /// What a type is. Combined with |.
 enum TypeFlags : uint32_t {
@@ -106,6 +111,35 @@ struct RootDesc {
   const char *renamedFrom = nullptr;
   /// The one task that writes the variable or calls the program; kNoIndex: none, or several.
   uint32_t task = kNoIndex;
+};
+
+/// Numbers of lines of symbols that only the C++ compiler knows, in the order of the lines. A type
+/// has three: Kind, size and alignment in bytes; a member and a root one: its offset, as MemberDesc
+/// and RootDesc have it; an enumerator none.
+struct SymbolNumbers {
+  const uint64_t *values;
+  uint64_t count;
+};
+
+/// Types, members, enumerators and roots as generated code gives them. A row of a table takes a C++
+/// compiler 20 us, a line of text next to nothing, and its number 5.
+///
+/// A line ends with a line feed. Its first character says what it is; columns are separated by
+/// tabs, and empty ones at the end of a line are left out:
+///
+///     T flags  name  layoutHash  element  lowerBound  elementCount  stringLength  typeId
+///     renamedFrom M flags  name  type  renamedFrom             of the last type E name  value of
+///     the last type R flags  name  type  list  task  renamedFrom
+///
+/// Types are numbered from 0 in the order of their lines. Flags of types are TypeFlags as a number,
+/// others are letters (kSymbolFlagLetters); layoutHash is in base 16, the rest in base 10. What is
+/// empty is 0, null or kNoIndex.
+struct SymbolLines {
+  const char *text;
+  uint64_t length; ///< Of the text, in bytes.
+  const SymbolNumbers *numbers;
+  uint32_t numberLists; ///< How many `numbers` there are: they follow each other.
+  uint32_t reserved;    ///< 0.
 };
 
 /// How a task is started.
@@ -279,7 +313,7 @@ struct StrideAppV1 {
   /// no instance has one.
   void (*reinit)(Ctx *ctx);
 
-  const TypeDesc *types;
+  const TypeDesc *types; ///< This table and the next three: null and empty with `symbols`.
   const MemberDesc *members;
   const EnumeratorDesc *enumerators;
   const RootDesc *roots;
@@ -341,6 +375,10 @@ struct StrideAppV1 {
   const UnitDesc *units = nullptr;
   uint32_t unitCount = 0;
   uint32_t reserved3 = 0; ///< 0.
+
+  /// What the host makes the tables of types, members, enumerators and roots of; null: they are
+  /// here.
+  const SymbolLines *symbols = nullptr;
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

@@ -29,11 +29,20 @@ std::string exactPath(const std::string &path) {
 
 void Application::Closer::operator()(void *library) const { ::dlclose(library); }
 
-Application::Application(const StrideAppV1 &description)
-    : description_(&description), name_(description.name), state_(description.stateSize) {}
+Application::Application(std::unique_ptr<const DescribedApplication> described)
+    : described_(std::move(described)), name_(description().name), state_(description().stateSize) {
+}
+
+std::unique_ptr<const DescribedApplication> Application::checked(const StrideAppV1 &description,
+                                                                 const RuntimeLayouts &layouts) {
+  checkHead(description, layouts);
+  auto described = std::make_unique<const DescribedApplication>(description);
+  validate(described->description(), layouts);
+  return described;
+}
 
 void Application::setDefaultName(const std::string &name) {
-  if (*description_->name == 0)
+  if (*description().name == 0)
     name_ = name;
 }
 
@@ -58,14 +67,15 @@ Application Application::load(const std::string &path, const RuntimeLayouts &lay
                             "define stride_app_v1\n  build it with 'stride build'",
                             path));
   const StrideAppV1 *description = std::bit_cast<EntryPoint *>(symbol)();
+  std::unique_ptr<const DescribedApplication> described;
   try {
     if (description == nullptr)
       throw Error("it describes nothing");
-    validate(*description, layouts);
+    described = checked(*description, layouts);
   } catch (const Error &error) {
     throw Error(fmt::format("cannot run '{}': {}", path, error.what()));
   }
-  Application application(*description);
+  Application application(std::move(described));
   application.library_ = std::move(library);
   application.setDefaultName(std::filesystem::path(path).stem().string());
   return application;
@@ -73,8 +83,7 @@ Application Application::load(const std::string &path, const RuntimeLayouts &lay
 
 Application Application::fromDescription(const StrideAppV1 &description,
                                          const RuntimeLayouts &layouts) {
-  validate(description, layouts);
-  Application application(description);
+  Application application(checked(description, layouts));
   application.setDefaultName("app");
   return application;
 }
@@ -89,15 +98,15 @@ void Application::initialise(const HostApi &host, bool inCopyCode, bool keepReta
   ctx.firstCycle = 1;
   ctx.inCopyCode = inCopyCode ? 1 : 0;
   ctx.keepRetains = keepRetains ? 1 : 0;
-  call(description_->init, ctx);
+  call(description().init, ctx);
 }
 
 void Application::settle() {
-  if (description_->settle == nullptr)
+  if (description().settle == nullptr)
     return;
   Ctx ctx{};
   ctx.state = state_.data();
-  description_->settle(&ctx);
+  description().settle(&ctx);
 }
 
 } // namespace stride::app

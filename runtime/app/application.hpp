@@ -4,6 +4,7 @@
 
 #include "runtime/app/abi.h"
 #include "runtime/app/state_block.hpp"
+#include "runtime/app/symbol_text.hpp"
 
 #include <functional>
 #include <memory>
@@ -41,7 +42,8 @@ public:
   /// Values were put into the state after initialise(): the tasks are to see them.
   void settle();
 
-  const StrideAppV1 &description() const { return *description_; }
+  /// With all its tables; stays where it is as long as the application is there.
+  const StrideAppV1 &description() const { return described_->description(); }
   /// As its project calls it. A project without a name of its own leaves it to whoever loads the
   /// application; until then it is that of the file.
   const std::string &name() const { return name_; }
@@ -55,10 +57,13 @@ private:
     void operator()(void *library) const;
   };
 
-  explicit Application(const StrideAppV1 &description);
+  explicit Application(std::unique_ptr<const DescribedApplication> described);
+
+  static std::unique_ptr<const DescribedApplication> checked(const StrideAppV1 &description,
+                                                             const RuntimeLayouts &layouts);
 
   std::unique_ptr<void, Closer> library_; // closed after everything else is gone
-  const StrideAppV1 *description_;
+  std::unique_ptr<const DescribedApplication> described_;
   std::string name_;
   StateBlock state_;
 };

@@ -78,29 +78,6 @@ void checkLayout(const char *type, uint64_t ours, uint64_t theirs) {
                             type));
 }
 
-} // namespace
-
-namespace {
-
-void checkHead(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
-  // The first two members stay where they are in every version.
-  if (app.magic != kAbiMagic)
-    throw Error("it is not a Stride application (its description starts with other data)");
-  if (app.abiVersion != kAbiVersion)
-    throw Error(fmt::format("it has application interface version {}, this runtime needs {}; build "
-                            "it again with this version of Stride",
-                            app.abiVersion, kAbiVersion));
-  if (app.size < sizeof(StrideAppV1))
-    damaged("size");
-  checkLayout("AXIS_REF", layouts.axisRef, app.axisRefLayout);
-  checkLayout("SMC_AXISGROUP_REF", layouts.axisGroupRef, app.axisGroupRefLayout);
-  checkLayout("SMC_ENCODER_REF", layouts.encoderRef, app.encoderRefLayout);
-  if (app.init == nullptr)
-    damaged("no initialisation");
-  if (app.stateAlign > 4096)
-    damaged("alignment");
-}
-
 bool isSound(const StrideAppV1 &app, const RootDesc &root) {
   if (root.name == nullptr || root.type >= app.typeCount)
     return false;
@@ -166,6 +143,25 @@ void checkAll(const StrideAppV1 &app, const Desc *list, uint32_t count, const ch
 }
 
 } // namespace
+
+void checkHead(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
+  // The first two members stay where they are in every version.
+  if (app.magic != kAbiMagic)
+    throw Error("it is not a Stride application (its description starts with other data)");
+  if (app.abiVersion != kAbiVersion)
+    throw Error(fmt::format("it has application interface version {}, this runtime needs {}; build "
+                            "it again with this version of Stride",
+                            app.abiVersion, kAbiVersion));
+  if (app.size < sizeof(StrideAppV1))
+    damaged("size");
+  checkLayout("AXIS_REF", layouts.axisRef, app.axisRefLayout);
+  checkLayout("SMC_AXISGROUP_REF", layouts.axisGroupRef, app.axisGroupRefLayout);
+  checkLayout("SMC_ENCODER_REF", layouts.encoderRef, app.encoderRefLayout);
+  if (app.init == nullptr)
+    damaged("no initialisation");
+  if (app.stateAlign > 4096)
+    damaged("alignment");
+}
 
 void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
   checkHead(app, layouts);

@@ -6,8 +6,11 @@
 
 namespace stride::app {
 
-/// Throws Error when the description is for another ABI, disagrees with the runtime's layouts, or
-/// is not consistent in itself (indices, offsets).
+/// Throws Error when the description is for another ABI or disagrees with the runtime's layouts.
+void checkHead(const StrideAppV1 &description, const RuntimeLayouts &layouts);
+
+/// The same, and Error when the description, which has all its tables, is not consistent in itself
+/// (indices, offsets).
 void validate(const StrideAppV1 &description, const RuntimeLayouts &layouts);
 
 } // namespace stride::app

@@ -129,41 +129,38 @@ def element_type(value):
     """The type (of gdb) that the elements of the array `value` have in ST, or None: the type table says it for arrays
     in the application's state."""
     try:
-        base, table = int(state().address), next(s.value() for s in application_symbols())
+        base, table = int(state().address), next(applications())
     except (gdb.error, StopIteration):
         return None
-    if value.address is None or not 0 <= int(value.address) - base < int(table["stateSize"]):
+    if value.address is None or not 0 <= int(value.address) - base < table.state_size:
         return None
     offset, size = int(value.address) - base, value.type.sizeof
-    entries = [table["roots"][i] for i in range(int(table["rootCount"]))]
+    entries = table.roots
     while True:
-        entry = next((e for e in entries if int(e["offset"]) <= offset <
-                      int(e["offset"]) + int(table["types"][e["type"]]["size"])), None)
+        entry = next((e for e in entries if e.offset <= offset < e.offset + table.types[e.type].size), None)
         if entry is None:
             return None
-        offset -= int(entry["offset"])
-        found = table["types"][entry["type"]]
-        while int(found["kind"]) == ARRAY:
-            element = table["types"][found["element"]]
-            if int(found["size"]) == size and offset % size == 0:
+        offset -= entry.offset
+        found = table.types[entry.type]
+        while found.kind == ARRAY:
+            element = table.types[found.element]
+            if found.size == size and offset % size == 0:
                 return named_type(element)
-            found, offset = element, offset % int(element["size"])
-        if int(found["kind"]) not in COMPOSED:
+            found, offset = element, offset % element.size
+        if found.kind not in COMPOSED:
             return None
-        first = int(found["firstMember"])
-        entries = [table["members"][first + i] for i in range(int(found["memberCount"]))]
+        entries = found.members
 
 
 def named_type(entry):
-    kind = int(entry["kind"])
-    if kind == ENUM:
-        for name in (f"st::user::{entry['name'].string()}", entry["name"].string()):
+    if entry.kind == ENUM:
+        for name in (f"st::user::{entry.name}", entry.name):
             try:
                 return gdb.lookup_type(name)
             except gdb.error:
                 pass
-    elif kind < len(KINDS) and KINDS[kind] in ELEMENTARY:
-        return gdb.lookup_type(f"stride::{KINDS[kind]}")
+    elif entry.kind < len(KINDS) and KINDS[entry.kind] in ELEMENTARY:
+        return gdb.lookup_type(f"stride::{KINDS[entry.kind]}")
     return None
 
 
@@ -187,23 +184,69 @@ class ArrayPrinter:
 
 def enumerators_of(name):
     """{value: enumerator} of the enumeration `name`, or None, from the applications' type tables."""
-    for symbol in application_symbols():
-        table = symbol.value()
-        for i in range(int(table["typeCount"])):
-            entry = table["types"][i]
-            if int(entry["kind"]) == ENUM and entry["name"].string() == name:
-                first = int(entry["firstMember"])
-                found = [table["enumerators"][first + k] for k in range(int(entry["memberCount"]))]
-                return {int(e["value"]): e["name"].string() for e in found}
+    for table in applications():
+        for entry in table.types:
+            if entry.kind == ENUM and entry.name == name:
+                return entry.enumerators
     return None
 
 
-def application_symbols():
-    """What describes each loaded application (StrideAppV1)."""
+class Member:
+    """A member or a root: its type's number, and its offset in bytes."""
+
+    def __init__(self, kind, offset):
+        self.type, self.offset = kind, offset
+
+
+class Type:
+    """A type; sizes are in bytes."""
+
+    def __init__(self, columns, numbers):
+        self.name, element = columns[1], (columns + [""] * 2)[3]
+        self.element = int(element) if element else None
+        self.kind, self.size, _ = next(numbers), next(numbers), next(numbers)
+        self.members, self.enumerators = [], {}
+
+
+class Application:
+    """What `description` (StrideAppV1) says of types, members, enumerators and roots: SymbolLines of
+    runtime/app/abi.h."""
+
+    def __init__(self, description):
+        self.state_size, self.types, self.roots = int(description["stateSize"]), [], []
+        lines = description["symbols"]
+        if not lines or not lines["text"]:
+            return  # not relocated yet
+        inferior = gdb.selected_inferior()
+        text = bytes(inferior.read_memory(int(lines["text"]), int(lines["length"]))).decode(errors="replace")
+        values = b""
+        for i in range(int(lines["numberLists"])):
+            part = lines["numbers"][i]
+            values += bytes(inferior.read_memory(int(part["values"]), 8 * int(part["count"])))
+        numbers = iter(number for number, in struct.iter_unpack("<Q", values))
+        for line in text.split("\n"):
+            columns = line.split("\t")
+            if line.startswith("T"):
+                self.types.append(Type(columns, numbers))
+            elif line.startswith("E"):
+                self.types[-1].enumerators[int((columns + ["0"])[2])] = columns[1]
+            elif line:
+                members = self.roots if line.startswith("R") else self.types[-1].members
+                members.append(Member(int(columns[2]), next(numbers)))
+
+
+def applications():
+    """The loaded applications. What is read of one is kept with its file."""
     for objfile in gdb.objfiles():
-        symbol = objfile.lookup_global_symbol("st::user::application__")
-        if symbol is not None:
-            yield symbol
+        found = getattr(objfile, "stride_application", None)
+        if found is None:
+            symbol = objfile.lookup_global_symbol("st::user::application__")
+            if symbol is None:
+                continue
+            found = Application(symbol.value())
+            if found.types:
+                objfile.stride_application = found
+        yield found
 
 
 class Lookup(gdb.printing.PrettyPrinter):
@@ -623,7 +666,7 @@ class Break(gdb.Command):
                 continue
             gdb.Breakpoint(function=place, qualified=True)
             return
-        loaded = any(True for _ in application_symbols())
+        loaded = any(True for _ in applications())
         hint = "its name as in ST: Counter, Counter.Reset" if loaded else "`st start` loads the application"
         raise gdb.GdbError(f"there is no POU `{argument.strip()}`; {hint}")
 
@@ -634,9 +677,9 @@ CONDITION = re.compile(r"\s(?:if\b|thread\s|task\s|mask\s)|$")
 def lasting(expression):
     """What names the same place as gdb's expression without the frame, if it is in the application's state; or None."""
     try:
-        base, table = int(state().address), next(s.value() for s in application_symbols())
+        base, table = int(state().address), next(applications())
         place = gdb.parse_and_eval(f"&({expression})")
-        if not 0 <= int(place) - base < int(table["stateSize"]):
+        if not 0 <= int(place) - base < table.state_size:
             return None
     except (gdb.error, gdb.GdbError, StopIteration):
         return None

@@ -23,7 +23,8 @@ constexpr const char *kFolder = STRIDE_SOURCE_DIR "/tests/system/shared_tasks";
 /// that it is built again; the rest of the runtime is taken as it is.
 constexpr const char *kBuild = R"(set -e
 "$STRIDE" build program.st --emit cpp -o generated
-cp "$SOURCE/runtime/iec/pool.cpp" "$SOURCE/runtime/iec/pool_calls.cpp" "$FOLDER/threads.cpp" generated
+cp "$SOURCE/runtime/iec/pool.cpp" "$SOURCE/runtime/iec/pool_calls.cpp" generated
+cp "$SOURCE/runtime/app/symbol_text.cpp" "$FOLDER/threads.cpp" generated
 cd generated
 find . -name '*.cpp' | xargs -P 2 -I{} sh -c 'o=$(echo {} | tr /. __).o
   $0 -std=c++20 -O1 -g -w -fsanitize=thread -fwrapv -fno-strict-aliasing \

@@ -2,7 +2,7 @@
 // scheduler: whatever order there is comes from the generated code. Linked with it, under
 // ThreadSanitizer. Prints `program.variable = value` for all members of programs called errors,
 // changes, taken.
-#include "runtime/app/abi.h"
+#include "runtime/app/symbol_text.hpp"
 #include "tests/support/data_stack.hpp"
 
 #include <atomic>
@@ -46,7 +46,8 @@ void print(const stride::StrideAppV1 &app, const char *state) {
 } // namespace
 
 int main() {
-  const stride::StrideAppV1 &app = *stride_app_v1();
+  const stride::app::DescribedApplication described(*stride_app_v1());
+  const stride::StrideAppV1 &app = described.description();
   std::vector<char> memory(app.stateSize + 64);
   char *state = memory.data() + (64 - reinterpret_cast<uintptr_t>(memory.data()) % 64);
   stride::HostApi host{};

@@ -201,7 +201,9 @@ void App::load(const std::vector<GeneratedFile> &files, const Options &options) 
     return;
   }
   using Entry = const stride::StrideAppV1 *(*)();
-  app_ = reinterpret_cast<Entry>(dlsym(handle_, "stride_app_v1"))();
+  described_ = std::make_unique<stride::app::DescribedApplication>(
+      *reinterpret_cast<Entry>(dlsym(handle_, "stride_app_v1"))());
+  app_ = &described_->description();
   state_.resize(app_->stateSize / sizeof(std::max_align_t) + 1);
   std::memset(state_.data(), 0, state_.size() * sizeof(std::max_align_t));
   ctx_.state = state_.data();

@@ -4,7 +4,7 @@
 // look at.
 
 #include "compiler/codegen/codegen.hpp"
-#include "runtime/app/abi.h"
+#include "runtime/app/symbol_text.hpp"
 #include "tests/support/data_stack.hpp"
 
 #include <cstddef>
@@ -69,6 +69,7 @@ private:
   static int64_t refill(stride::Ctx *ctx);
 
   void *handle_ = nullptr;
+  std::unique_ptr<const stride::app::DescribedApplication> described_;
   const stride::StrideAppV1 *app_ = nullptr;
   std::vector<std::max_align_t> state_;
   stride::Ctx ctx_{};
