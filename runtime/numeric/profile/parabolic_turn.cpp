@@ -213,7 +213,9 @@ bool goByTop(TurningRoute &route, const Task &task) noexcept {
   return cruise(route, task, state.position) >= -16.0 * task.noise;
 }
 
-/// The way to beyond where the direct change ends, by search along the way to the top velocity.
+/// The way to beyond where the direct change ends, by search along the way to the top velocity: for
+/// states beyond the limits. Of each phase the reach at its end decides, and at the summit, the
+/// only place where it grows and then falls: see parabolic_push.cpp.
 void search(TurningRoute &route, const Task &task) noexcept {
   const TurningChange upward(task.velocity, task.acceleration, task.top, task.rates);
   State state = {0.0, task.velocity, task.acceleration};
