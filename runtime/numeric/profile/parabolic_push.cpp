@@ -349,6 +349,9 @@ bool findPush(Push &push, const Task &task) noexcept {
 //   s + b^2 - bz/2 are convex over b. Where both are negative, the reach falls: between two roots
 //   of square equations. Before and after, it grows.
 // So the first push that reaches the target lies before the fall, or in the one growth after it.
+// Where the change to the end velocity begins with what the push does, too, both are the same
+// motion, and the reach stays: while e is above the velocity at which the acceleration would be
+// gone, and while there is more acceleration than the limits allow.
 namespace {
 
 double rootOfPositive(double x) noexcept { return x > 0.0 ? exact::sqrt(x) : 0.0; }

@@ -224,10 +224,9 @@ bool bend(VelocityChange &change, const Task &task, const State &from, double ga
   const double before = sign * change.phases[0].acceleration;
   double peak = before;
   for (int i = 0; i < 3; ++i) {
-    peak += 0.5 * jerk * (gap / end);
+    peak = exact::larger(peak + 0.5 * jerk * (gap / end), 0.0);
     const double time = (peak - sign * from.acceleration) / jerk;
-    if (!(peak >= 0.0 && time >= 0.0 &&
-          exact::fabs(peak * peak - before * before) <= jerk * digits))
+    if (!(time >= 0.0 && exact::fabs(peak * peak - before * before) <= jerk * digits))
       return false;
     change.phases[0] = {time, sign * jerk, sign * peak};
     change.phases[1] = {0.0, 0.0, sign * peak};

@@ -64,9 +64,10 @@ void stand(TurningRoute &route, State &state) noexcept {
 }
 
 /// The change to the end velocity from `end`, where the head of the route ends, leads `gap` beyond
-/// the task's distance: mends that if it is rounding. False if it remains.
-bool mend(TurningRoute &route, const Task &task, const State &end, double gap) noexcept {
-  const double rounding = roundingOf(task, end);
+/// the task's distance: mends that if it comes from the last digits of velocities. False if more
+/// than `rounding` remains.
+bool mend(TurningRoute &route, const Task &task, const State &end, double gap,
+          double rounding) noexcept {
   if (exact::fabs(gap) <= rounding)
     return true;
   State from = end;
@@ -82,7 +83,7 @@ bool mend(TurningRoute &route, const Task &task, const State &end, double gap) n
 void leave(TurningRoute &route, const Task &task, State state, const Phase &phase) noexcept {
   route.add(partOf(phase, state, durationWithin(task, state, phase)), state);
   changeFrom(route, state, task);
-  (void)mend(route, task, state, reach(state, task) - task.distance);
+  (void)mend(route, task, state, reach(state, task) - task.distance, roundingOf(task, state));
 }
 
 /// Goes on with all of `phase`; or with a part that leads to the end, which is true.
@@ -179,7 +180,7 @@ bool goExactlyByPush(TurningRoute &route, const Task &task, TurningPush push) no
       push.rate -= 0.5 * jerk * (gap / growth);
     gap = goByPush(route, task, push, end);
   }
-  return mend(route, task, end, gap);
+  return mend(route, task, end, gap, roundingOf(task, end));
 }
 
 /// Goes on from the top velocity; returns how far that is short of the task's distance.
@@ -212,7 +213,9 @@ bool goByTop(TurningRoute &route, const Task &task) noexcept {
   return cruise(route, task, state.position) >= -16.0 * task.noise;
 }
 
-/// The way to beyond where the direct change ends, by search along the way to the top velocity.
+/// The way to beyond where the direct change ends, by search along the way to the top velocity: for
+/// states beyond the limits. Of each phase the reach at its end decides, and at the summit, the
+/// only place where it grows and then falls: see parabolic_push.cpp.
 void search(TurningRoute &route, const Task &task) noexcept {
   const TurningChange upward(task.velocity, task.acceleration, task.top, task.rates);
   State state = {0.0, task.velocity, task.acceleration};
@@ -299,7 +302,7 @@ void findTurningRoute(TurningRoute &route, const Task &task, Direct direct) noex
   const double swing = task.acceleration * (task.acceleration / task.rates.jerk);
   const double blur =
       16.0 * kEpsilon * route.tail.duration() * (exact::fabs(task.velocity) + swing);
-  if (!(exact::fabs(gap) > task.noise + blur))
+  if (mend(route, task, start, -gap, task.noise + blur))
     return;
   if (gap > 0.0)
     goForward(route, task);

@@ -21,6 +21,7 @@ struct TurningChange {
     set(velocity, from, to, rates);
   }
 
+  /// Becomes the change from `velocity`, with the acceleration `from`, to the velocity `to`.
   void set(double velocity, double from, double to, const Rates &rates) noexcept;
 
   /// The way from the beginning to the end, where the velocity is `to`.
@@ -45,11 +46,13 @@ private:
 using TurningRoute = RouteOf<TurningChange, 7>;
 
 /// What is known of where the direct change to the end velocity ends.
-enum class Direct : uint8_t { Unknown, Behind };
+enum class Direct : uint8_t {
+  Unknown,
+  Behind, ///< Beyond the target, by more than rounding.
+};
 
 /// Finds the fastest way; `rates` of the task are those of positive velocities, and `top` is the
-/// greatest magnitude of the velocity, above 0. `direct` Behind: the direct change ends beyond the
-/// target, by more than rounding.
+/// greatest magnitude of the velocity, above 0.
 void findTurningRoute(TurningRoute &route, const Task &task, Direct direct) noexcept;
 
 } // namespace stride::motion::parabolic
