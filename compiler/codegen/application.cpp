@@ -38,7 +38,7 @@ public:
   }
 
   GeneratedFile app() {
-    const std::string tables = typeTables();
+    const SymbolTexts symbols = symbolTexts();
     const std::string sizes = measures();
     std::string out = banner("The application object") + includes();
     state(out);
@@ -49,13 +49,15 @@ public:
       out += "\nnamespace stride {\nconst ULINT poolPlace = offsetof(::st::user::App__, pool__);\n"
              "const ULINT poolSize = " +
              std::to_string(c_.program.settings.poolSize) + ";\n} // namespace stride\n";
+    if (!symbols.declarations.empty())
+      out += "\n// Numbers of lines of symbols.\n" + symbols.declarations;
     out += "\nnamespace {\n\nusing ::st::user::App__;\nusing ::stride::Kind;\n"
            "\n[[maybe_unused]] App__ &app__(::stride::Ctx *ctx__) { return *static_cast<App__ "
            "*>(ctx__->state); }\n";
     out += copies_.settle();
     init(out);
     tasks(out);
-    out += tables;
+    out += symbols.tables;
     plc_.write();
     out += plc_.text();
     sharing(out);
@@ -355,7 +357,7 @@ private:
              rows + "};\n";
   }
 
-  std::string typeTables() {
+  SymbolTexts symbolTexts() {
     for (const Member &m : members_)
       addRoots(m);
     types_.addImage();
@@ -365,7 +367,7 @@ private:
       types_.index(type); // the headers of their objects name them by hash
     if (c_.program.usesPool)
       types_.addPool(c_.program.settings.poolSize);
-    return types_.text();
+    return types_.texts();
   }
 
   /// What the compiler has computed with is what g++ sees.

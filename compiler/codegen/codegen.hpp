@@ -19,6 +19,7 @@ struct GeneratedFile {
   /// Each statement in it runs at most once in a call of a program: the C++ compiler need not take
   /// much time for it.
   bool runsOnce = false;
+  size_t tables = 0; ///< bytes of the text that are numbers in tables
 };
 
 /// How a task is started.

@@ -1,5 +1,6 @@
 #include "compiler/codegen/type_table.hpp"
 
+#include "compiler/codegen/layout_numbers.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/type_table.hpp"
@@ -23,6 +24,7 @@ namespace {
 // Values of runtime/app/abi.h.
 constexpr unsigned kHasAddress = 1;
 constexpr unsigned kExternal = 2;
+constexpr size_t kMeasures = 3; // kind, size and alignment
 
 /// Flags of a variable as runtime/app/abi.h has them in lines of symbols: letters, and the digit
 /// that belongs to the one before it.
@@ -127,11 +129,6 @@ private:
   std::string text_;
   size_t empty_ = 0; ///< columns that are not written yet
 };
-
-std::string offsetOf(std::string_view type, std::string_view member) {
-  std::string out = "offsetof(";
-  return out.append(type).append(", ").append(member).append(")");
-}
 
 } // namespace
 
@@ -242,7 +239,9 @@ void TypeTable::fillEnumeration(Row &row, const EnumType *type) {
 
 void TypeTable::fillInstance(Row &row, const PouType *type) {
   const PouSymbol *pou = type->symbol;
-  row.kind = type->kind == TypeKind::Program ? "Program" : "FunctionBlock";
+  row.kind = instanceKind(pou);
+  if (hasOwnNumbers(pou))
+    row.numbersOf = pou;
   row.renamedFrom = renamedFrom(pou->decl->attributes);
   if (pou->decl->external)
     row.flags |= kExternal;
@@ -255,7 +254,9 @@ void TypeTable::fillInstance(Row &row, const PouType *type) {
 void TypeTable::memberRow(Row &row, const Type *type, const VarSymbol *v, uint32_t typeIndex,
                           const std::string &owner) {
   Flags flags = locatedFlags(v, symbolFlags(v));
-  if (v->isBit) { // offsetof is not for bits
+  if (row.numbersOf != nullptr) {
+    // they are there
+  } else if (v->isBit) { // offsetof is not for bits
     const Storage::BitPlace at = storage_.bit(type, v);
     row.offsets.push_back(std::to_string(at.byte));
     flags.add(true, kBit).addNumber(at.bit);
@@ -276,14 +277,16 @@ void TypeTable::members(Row &row, const Type *type, const Type *base, const std:
   if (base != nullptr) {
     row.lines.push_back(
         Line('M', std::string(1, kBase)).add(typeName(base)).add(index(base)).text());
-    row.offsets.push_back(offsetOf(owner, "base__"));
+    if (row.numbersOf == nullptr)
+      row.offsets.push_back(offsetOf(owner, "base__"));
   }
   if (typeId) {
     row.lines.push_back(Line('M', std::string({kTypeId, kHidden}))
                             .add("type__")
                             .add(index(elementaryType(TypeKind::Udint)))
                             .text());
-    row.offsets.push_back(offsetOf(owner, "type__"));
+    if (row.numbersOf == nullptr)
+      row.offsets.push_back(offsetOf(owner, "type__"));
   }
   for (const VarSymbol *v : variables)
     memberRow(row, type, v, index(v->type, v->section == Section::InOut), owner);
@@ -378,14 +381,59 @@ void TypeTable::addProgram(const PouSymbol *program, const std::string &place,
   rootOffsets_.push_back(offsetOf("App__", place));
 }
 
-std::string TypeTable::text() const {
+/// The numbers of the application and of blocks, in the order of the lines.
+class TypeTable::Numbers {
+public:
+  explicit Numbers(Context &context) : c_(context) {}
+
+  void add(std::string_view number, size_t count = 1) {
+    own_.append("    ").append(number).append(",\n");
+    end_ += count;
+  }
+  void addOf(const PouSymbol *pou, size_t count) {
+    endSlice();
+    const std::string name = numbersName(c_, pou);
+    const std::string space(c_.names.space(pou->library));
+    declarations_.append("namespace st::").append(space).append(" {\n");
+    declarations_.append("extern const uint64_t ").append(name).append("[];\n}\n");
+    list("::st::" + space + "::" + name, count);
+  }
+  std::string declarations() { return std::move(declarations_); }
+  std::string text() {
+    endSlice();
+    std::string out;
+    if (!own_.empty())
+      out.append("constexpr uint64_t kSymbolNumbers[] = {\n").append(own_).append("};\n");
+    return out.append("constexpr ::stride::SymbolNumbers kNumberLists[] = {\n")
+        .append(lists_)
+        .append("};\n");
+  }
+
+private:
+  void list(const std::string &place, size_t count) {
+    lists_.append("    {").append(place).append(", ").append(std::to_string(count)).append("},\n");
+  }
+  void endSlice() {
+    if (end_ != begin_)
+      list("kSymbolNumbers + " + std::to_string(begin_), end_ - begin_);
+    begin_ = end_;
+  }
+
+  Context &c_;
+  std::string declarations_;
+  std::string own_;
+  std::string lists_;
+  size_t begin_ = 0; // of what is not in a list yet
+  size_t end_ = 0;
+};
+
+SymbolTexts TypeTable::texts() const {
+  if (types_.empty())
+    return {};
   std::string lines;
-  std::string numbers;
+  Numbers numbers(c_);
   const auto line = [&](std::string_view text) {
     lines.append("\n    \"").append(text).append("\\n\"");
-  };
-  const auto number = [&](std::string_view number) {
-    numbers.append("    ").append(number).append(",\n");
   };
   for (const Row &r : types_) {
     line(Line('T', std::to_string(r.flags))
@@ -398,25 +446,27 @@ std::string TypeTable::text() const {
              .addSome(r.typeId)
              .add(r.renamedFrom)
              .text());
-    number("uint64_t(Kind::" + r.kind + "), sizeof(" + r.cppType + "), alignof(" + r.cppType + ")");
     for (const std::string &own : r.lines)
       line(own);
+    if (r.numbersOf != nullptr) {
+      numbers.addOf(r.numbersOf, kMeasures + r.lines.size());
+      continue;
+    }
+    numbers.add(measuresOf(r.kind, r.cppType), kMeasures);
     for (const std::string &offset : r.offsets)
-      number(offset);
+      numbers.add(offset);
   }
   for (const std::string &root : rootLines_)
     line(root);
   for (const std::string &offset : rootOffsets_)
-    number(offset);
-  if (lines.empty())
-    return {};
-  return "\n// Types, members, enumerators and roots, as runtime/app/abi.h has lines of symbols.\n"
-         "constexpr char kSymbolText[] =" +
-         lines + ";\nconstexpr uint64_t kSymbolNumbers[] = {\n" + numbers +
-         "};\nconstexpr ::stride::SymbolNumbers kNumberLists[] = {{kSymbolNumbers, "
-         "::stride::tableSize(kSymbolNumbers)}};\n"
-         "constexpr ::stride::SymbolLines kSymbols = {kSymbolText, sizeof(kSymbolText) - 1, "
-         "kNumberLists, ::stride::tableSize(kNumberLists), 0};\n";
+    numbers.add(offset);
+  std::string text =
+      "\n// Types, members, enumerators and roots, as runtime/app/abi.h has lines of symbols.\n"
+      "constexpr char kSymbolText[] =" +
+      lines + ";\n" + numbers.text() +
+      "constexpr ::stride::SymbolLines kSymbols = {kSymbolText, sizeof(kSymbolText) - 1, "
+      "kNumberLists, ::stride::tableSize(kNumberLists), 0};\n";
+  return {numbers.declarations(), std::move(text)};
 }
 
 } // namespace stc::codegen

@@ -14,6 +14,12 @@ namespace stc::codegen {
 /// The value of {attribute 'renamed_from'}, empty without one.
 [[nodiscard]] std::string_view renamedFrom(const ast::Attributes &attributes);
 
+/// Parts of app.cpp; empty where there are no types.
+struct SymbolTexts {
+  std::string declarations; ///< of numbers in other sources, for the global namespace
+  std::string tables;       ///< `constexpr ::stride::SymbolLines kSymbols = …`, and what it names
+};
+
 /// Collects every type that can be reached from the roots, pointers included, and writes the
 /// tables.
 class TypeTable {
@@ -36,9 +42,7 @@ public:
   /// `task`: the only one that calls it.
   void addProgram(const PouSymbol *program, const std::string &place, std::optional<uint32_t> task);
 
-  /// `constexpr ::stride::SymbolLines kSymbols = { … };` and what it names; empty where there are
-  /// no types.
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] SymbolTexts texts() const;
   [[nodiscard]] bool empty() const { return types_.empty(); }
   [[nodiscard]] Includes &includes() { return includes_; }
 
@@ -65,9 +69,11 @@ private:
     uint32_t stringLength = 0;
     uint32_t typeId = 0;
     std::string_view renamedFrom;
-    std::vector<std::string> lines;   ///< of members or enumerators
-    std::vector<std::string> offsets; ///< of members, as expressions
+    std::vector<std::string> lines;       ///< of members or enumerators
+    std::vector<std::string> offsets;     ///< of members, as expressions
+    const PouSymbol *numbersOf = nullptr; ///< whose source has size, alignment and offsets
   };
+  class Numbers;
   /// A row that has its number and no content yet.
   struct Pending {
     uint32_t at = 0;

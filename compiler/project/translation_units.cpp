@@ -28,7 +28,8 @@ bool isApplication(const GeneratedFile &file) {
 }
 
 size_t weightOf(const GeneratedFile &file) {
-  return isApplication(file) ? file.text.size() / kTablesPerStatement : file.text.size();
+  const size_t tables = isApplication(file) ? file.text.size() : file.tables;
+  return file.text.size() - tables + tables / kTablesPerStatement;
 }
 
 // The application object has tables, and calls each program once.

@@ -117,6 +117,15 @@ TEST(TranslationUnits, LargeSourceIsAlone) {
           {"app.cpp"}, {"user/Large.cpp"}, {"user/A.cpp", "user/B.cpp"}}));
 }
 
+TEST(TranslationUnits, NumbersInTablesWeighASixteenth) {
+  for (const size_t over : {size_t{0}, size_t{1}}) {
+    std::vector<GeneratedFile> files = {{"build.cpp", "t"},
+                                        source("Large", kMost - 100 + 1600 + over)};
+    files[1].tables = 1600;
+    EXPECT_EQ(divideIntoUnits(files).size(), over == 0 ? 1U : 2U);
+  }
+}
+
 TEST(TranslationUnits, WhatRunsOnceIsInLargerUnits) {
   for (const size_t over : {size_t{0}, size_t{1}}) {
     const auto files = [&] {

@@ -3,9 +3,13 @@
 #include "program.hpp"
 
 #include <cstring>
+#include <gmock/gmock-matchers.h>
 #include <gtest/gtest.h>
 
 namespace stc::test {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace {
 
@@ -207,6 +211,66 @@ TEST(CodegenTables, AnEditTouchesOnlyWhatItMust) {
       changed += before[i].path + " ";
   }
   EXPECT_EQ(changed, "user/B.cpp build.cpp ");
+}
+
+namespace {
+
+/// A block with so many variables, each set to its number.
+std::string blockOf(const std::string &head, int variables, const std::string &more = {}) {
+  std::string text = head + "\nVAR\n";
+  for (int i = 0; i < variables; ++i)
+    text += "  v" + std::to_string(i) + (i % 3 == 0 ? " : BOOL := TRUE" : " : LINT := ") +
+            (i % 3 == 0 ? "" : std::to_string(i)) + ";\n";
+  return text + more + "END_VAR\nEND_FUNCTION_BLOCK\n";
+}
+
+} // namespace
+
+// Sizes and offsets of blocks with many variables are in the sources of the blocks. Limits at and
+// below; what is no member of the structure, or has no address, keeps a block out.
+TEST(CodegenTables, NumbersOfLargeBlocksAreInTheirSources) {
+  const auto files = generate(
+      {{"Main.st", blockOf("FUNCTION_BLOCK Large", 16) + blockOf("FUNCTION_BLOCK Small", 15) +
+                       blockOf("FUNCTION_BLOCK Bits", 16, "bit AT %MX3.1 : BOOL;\n") + R"(
+PROGRAM Main
+VAR large : Large; small : Small; bits : Bits; END_VAR
+END_PROGRAM
+)"}});
+  const std::string app = fileText(files, "app.cpp");
+  EXPECT_THAT(fileText(files, "user/Large.cpp"), HasSubstr("offsetof(Large, v15)"));
+  EXPECT_THAT(app, Not(HasSubstr("user::Large, v")));
+  EXPECT_THAT(app, HasSubstr("{::st::user::Large__numbers, 19}"));
+  for (const char *name : {"Small", "Bits"}) {
+    EXPECT_THAT(fileText(files, std::string("user/") + name + ".cpp"), Not(HasSubstr("offsetof")));
+    EXPECT_THAT(app, HasSubstr("offsetof(::st::user::" + std::string(name) + ", v14)"));
+  }
+  for (const GeneratedFile &file : files)
+    EXPECT_EQ(file.tables != 0, file.path == "user/Large.cpp") << file.path;
+}
+
+// With a base and a type id: what a path leads to has the value that the
+// variable was declared with.
+TEST(CodegenTables, NumbersInOtherSourcesAreThoseOfTheMembers) {
+  App app({{"Main.st", blockOf("FUNCTION_BLOCK Base", 20) +
+                           blockOf("FUNCTION_BLOCK Derived EXTENDS Base IMPLEMENTS IThing", 0,
+                                   "a : LINT := 100; b : BOOL := TRUE; "
+                                   "c, d, e, f, g, h, i, j, k, l, m, n, "
+                                   "o, p : INT := 7; q : LINT := 101;\n") +
+                           R"(
+INTERFACE IThing END_INTERFACE
+PROGRAM Main
+VAR base : Base; derived : Derived; one : Base; END_VAR
+END_PROGRAM
+)"}});
+  for (const char *path : {"Main.base", "Main.derived", "Main.one"})
+    for (int i = 0; i < 20; ++i)
+      EXPECT_EQ(app[std::string(path) + ".v" + std::to_string(i)],
+                i % 3 == 0 ? "TRUE" : std::to_string(i))
+          << path << i;
+  EXPECT_EQ(app["Main.derived.a"], "100");
+  EXPECT_EQ(app["Main.derived.b"], "TRUE");
+  EXPECT_EQ(app["Main.derived.p"], "7");
+  EXPECT_EQ(app["Main.derived.q"], "101");
 }
 
 } // namespace stc::test
