@@ -1,6 +1,7 @@
 #include "runtime/app/carry_over.hpp"
 
 #include "runtime/app/carry_values.hpp"
+#include "runtime/app/image_moves.hpp"
 
 #include <fmt/format.h>
 
@@ -12,13 +13,10 @@ namespace stride::app {
 
 namespace {
 
-/// What is no BIT.
-constexpr unsigned kWholeByte = 8;
-
 /// The number of a BIT in its byte.
 unsigned bitOf(uint32_t flags) {
   return (flags & (kSymBit | kSymLocated | kSymSlot)) == kSymBit ? flags >> kSymBitShift & 7U
-                                                                 : kWholeByte;
+                                                                 : kNoBit;
 }
 
 /// Longer programs are called, shorter ones are written out in place.
@@ -79,6 +77,10 @@ CarryOver::CarryOver(const StrideAppV1 &oldApp, const StrideAppV1 &newApp, Match
     copySteps(root.pair, {root.oldOffset, root.newOffset}, copies);
     slotSteps(root.pair, {root.oldOffset, root.newOffset}, false, slots);
   }
+  for (const ImageMove &move : imageMoves(oldApp, newApp)) // after the image as a whole
+    if (move.sameType)
+      copies.list.push_back({move.isBit ? Step::Kind::Bit : Step::Kind::Copy, false, kNoIndex,
+                             move.oldOffset, move.newOffset, move.count, 0, 0});
   poolSlots_.resize(pairs);
   for (const PoolType &type : match_.poolTypes()) {
     const uint32_t program = store(slotProgram(type.pair, false));
@@ -249,7 +251,7 @@ void CarryOver::fieldSteps(const TypePair &pair, Place at, Steps &out) {
     const TypePair &own = match_.pair(field.pair);
     const unsigned oldBit = bitOf(match_.oldApp().members[field.oldMember].flags);
     const unsigned newBit = bitOf(match_.newApp().members[field.newMember].flags);
-    if (oldBit < kWholeByte || newBit < kWholeByte) {
+    if (oldBit < kNoBit || newBit < kNoBit) {
       if (own.carry == Carry::Bytes)
         out.list.push_back({Step::Kind::Bit, false, kNoIndex, place.oldOffset, place.newOffset,
                             oldBit + 16 * newBit, 0, 0});
@@ -341,9 +343,9 @@ struct CarryOver::Run {
   static void bit(unsigned numbers, std::byte from, std::byte &to) noexcept {
     const unsigned oldBit = numbers % 16;
     const unsigned newBit = numbers / 16;
-    const bool set = (oldBit < kWholeByte ? from >> oldBit & std::byte{1} : from) != std::byte{0};
-    const std::byte mask = newBit < kWholeByte ? std::byte{1} << newBit : std::byte{1};
-    to = newBit < kWholeByte ? to & ~mask : std::byte{0};
+    const bool set = (oldBit < kNoBit ? from >> oldBit & std::byte{1} : from) != std::byte{0};
+    const std::byte mask = newBit < kNoBit ? std::byte{1} << newBit : std::byte{1};
+    to = newBit < kNoBit ? to & ~mask : std::byte{0};
     if (set)
       to |= mask;
   }

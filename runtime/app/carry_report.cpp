@@ -1,5 +1,6 @@
 #include "runtime/app/carry_report.hpp"
 
+#include "runtime/app/image_moves.hpp"
 #include "runtime/app/layout_index.hpp"
 
 #include <fmt/format.h>
@@ -61,6 +62,11 @@ CarryReport::CarryReport(const TypeMatch &match)
   for (const FieldPair &root : match.roots()) {
     if (root.hold == Hold::No && match.newApp().roots + root.newMember != pool_)
       kept_ += keptIn(root.pair);
+  }
+  for (const ImageMove &move : imageMoves(match.oldApp(), match.newApp())) {
+    if (!move.sameType)
+      findings_.push_back({Finding::Kind::Lost, move.path, 1, move.oldType, move.newType,
+                           "another address and type"});
   }
   std::stable_sort(findings_.begin(), findings_.end(), [](const Finding &a, const Finding &b) {
     return isLoss(a.kind) > isLoss(b.kind);

@@ -95,10 +95,14 @@ Symbol resolveElementary(const SymbolTable &symbols, std::string_view path) {
                                 path, type.name, leaves.front().path()));
 }
 
+const char *whyNotWritten(const Symbol &symbol) {
+  return (symbol.flags() & kSymLocated) != 0 ? "READ_ONLY in its VAR_ACCESS" : "a constant";
+}
+
 Symbol resolveWritable(const SymbolTable &symbols, std::string_view path) {
   Symbol symbol = resolveElementary(symbols, path);
   if ((symbol.flags() & kSymConstant) != 0)
-    throw Error(fmt::format("symbol '{}': it is a constant", path));
+    throw Error(fmt::format("symbol '{}': it is {}", path, whyNotWritten(symbol)));
   return symbol;
 }
 

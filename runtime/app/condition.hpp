@@ -24,6 +24,8 @@ enum class Relation : uint8_t { Equal, NotEqual, Less, LessEqual, Greater, Great
 Symbol resolveElementary(const SymbolTable &symbols, std::string_view path);
 /// Resolves one that is to be written. Throws Error for a constant, too.
 Symbol resolveWritable(const SymbolTable &symbols, std::string_view path);
+/// What a variable is that cannot be written: "a constant" or what VAR_ACCESS says of it.
+const char *whyNotWritten(const Symbol &symbol);
 /// The bytes of a literal of the symbol's type. Throws Error.
 std::vector<std::byte> literalBytes(const SymbolTable &symbols, const Symbol &symbol,
                                     std::string_view literal);

@@ -1,5 +1,6 @@
 #include "runtime/host/set_list.hpp"
 
+#include "runtime/app/condition.hpp"
 #include "runtime/app/error.hpp"
 #include "runtime/app/value_text.hpp"
 
@@ -14,7 +15,7 @@ SetList::Entry SetList::resolve(const app::SymbolTable &symbols, const SetOption
   try {
     Entry entry{option, symbols.resolve(option.path), {}};
     if ((entry.symbol.flags() & kSymConstant) != 0)
-      throw app::Error(fmt::format("'{}' is a constant", option.path));
+      throw app::Error(fmt::format("'{}' is {}", option.path, app::whyNotWritten(entry.symbol)));
     const TypeDesc &type = symbols.type(entry.symbol);
     entry.value.resize(type.size);
     app::parseLiteral(symbols.app(), type, option.value, entry.value.data());

@@ -64,6 +64,12 @@ static void checkAccess(Context &c, VarDecl *decl, Module &module, const PouDecl
       access.location = target->variable->location;
     if (!isAccessible(c, decl, access, target->variable))
       return;
+    if (decl->readWrite && target->isConstant) {
+      c.report(Code::ConfigMismatch, decl->path->span, "an access path cannot write a constant",
+               "its value never changes")
+          .help("leave out READ_WRITE, or write READ_ONLY");
+      return;
+    }
   }
   if (access.type == nullptr || isError(access.type) || isError(type))
     return;

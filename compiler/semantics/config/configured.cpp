@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_map>
 
 namespace stc::sema {
 
@@ -20,6 +21,9 @@ using namespace ast;
 namespace {
 
 constexpr size_t kMaxShown = 8;
+
+/// Entries of VAR_CONFIG by their path in lower case.
+using EntriesByPath = std::unordered_map<std::string, const VarDecl *>;
 
 } // namespace
 
@@ -100,8 +104,26 @@ static void placeSlot(Context &c, SlotPlace &slot, const Type *type, const std::
   slot.placed = true;
 }
 
+/// Whether the variable's initial value may come from here; reports why not. `first` holds the
+/// entries before it by path.
+static bool takesValue(Context &c, VarDecl *decl, const PathTarget &target, const std::string &path,
+                       EntriesByPath &first) {
+  if (target.isConstant) {
+    reportMismatch(c, target, decl->path->span, "`" + path + "` is a constant",
+                   "it has the value of its declaration");
+    return false;
+  }
+  const auto [entry, isNew] = first.emplace(lowerCase(path), decl);
+  if (isNew)
+    return true;
+  c.report(Code::ConfigMismatch, decl->path->span, "`" + path + "` gets a value twice",
+           "the second one")
+      .label(entry->second->path->span, "the first one");
+  return false;
+}
+
 static void checkConfigEntry(Context &c, VarDecl *decl, Module &module,
-                             std::vector<SlotPlace> &slots) {
+                             std::vector<SlotPlace> &slots, EntriesByPath &values) {
   const auto target = resolvePath(c, decl->path, module);
   const Type *type = resolveType(c, decl->type, "config");
   if (!target || isError(type) || isError(target->type))
@@ -119,17 +141,19 @@ static void checkConfigEntry(Context &c, VarDecl *decl, Module &module,
   }
   if (decl->init != nullptr)
     decl->init = checkInit(c, decl->init, type);
-  if (slot == nullptr && decl->address == nullptr)
-    c.program.slotPlaces.push_back({target->path, nullptr, {}, decl, true});
-  else if (decl->address == nullptr)
+  if (slot == nullptr && decl->address == nullptr) {
+    if (takesValue(c, decl, *target, path, values))
+      c.program.slotPlaces.push_back({target->path, nullptr, {}, decl, true});
+  } else if (decl->address == nullptr) {
     reportMismatch(c, *target, decl->path->span, "the entry for `" + path + "` gives no address",
                    "where does it lie?");
-  else if (slot == nullptr)
+  } else if (slot == nullptr) {
     reportMismatch(c, *target, decl->address->span,
                    "`" + path + "` is not declared with `*`: it has a place already",
                    "another place");
-  else if (fitsSlot(c, *target, path, *decl->address))
+  } else if (fitsSlot(c, *target, path, *decl->address)) {
     placeSlot(c, *slot, type, path, *decl->address);
+  }
 }
 
 /// A place after everything that is used in the slot's area; false (reported): there is none.
@@ -231,10 +255,11 @@ void checkConfigured(Context &c, Module &module) {
         collectSlots(c, v->type, path, slots);
     }
   }
+  EntriesByPath values;
   for (GlobalsDecl *list : c.names.configuration().configs) {
     for (VarDecl *decl : list->variables) {
       if (decl->path != nullptr)
-        checkConfigEntry(c, decl, module, slots);
+        checkConfigEntry(c, decl, module, slots, values);
     }
   }
   placeChannelFields(c, slots);

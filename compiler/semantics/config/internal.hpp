@@ -11,6 +11,7 @@ struct PathTarget {
   StatePath path;
   const Type *type = nullptr;
   VarSymbol *variable = nullptr; ///< the last name; null for a program
+  bool isConstant = false;       ///< it, or what it lies in
 };
 
 /// Variables that VAR_CONFIG can place.

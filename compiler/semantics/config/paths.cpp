@@ -63,6 +63,7 @@ static std::optional<PathTarget> ownVariable(Context &c, const PouDecl &program,
   target.path = {pou, {{variable, 0}}};
   target.variable = variable;
   target.type = typeOf(c, variable);
+  target.isConstant = variable->isConstant;
   return target;
 }
 
@@ -83,6 +84,7 @@ static std::optional<PathTarget> startOfPath(Context &c, const Name &name, Modul
   if (root->kind == SymbolKind::Variable) {
     target.variable = static_cast<VarSymbol *>(root);
     target.type = typeOf(c, target.variable);
+    target.isConstant = target.variable->isConstant;
   } else {
     declare(c, static_cast<PouSymbol *>(root));
     target.type = static_cast<PouSymbol *>(root)->type;
@@ -131,6 +133,7 @@ static std::optional<PathTarget> memberOfPath(Context &c, MemberExpr *member, Mo
   member->symbol = found;
   base->type = typeOf(c, found);
   base->variable = found;
+  base->isConstant = base->isConstant || found->isConstant;
   base->path.steps.push_back({found, 0});
   return base;
 }
