@@ -11,6 +11,7 @@
 #include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <fmt/format.h>
 #include <unordered_map>
 
@@ -56,7 +57,7 @@ void Project::load(const fs::path &given) {
   single_ = true;
   ownName_ = true;
   config_.name = given.stem().string();
-  loadFile(given, given.string());
+  loadFiles({given});
   for (const FileId id : sourceFiles_)
     program_.sources.file(id).setCodeName(given.filename().string());
   loaded_ = !hasErrors();
@@ -91,8 +92,7 @@ void Project::loadFolder() {
             fmt::format("`{}` has no stride.toml: its {} source files are taken for one project",
                         path_.string(), sources.files.size()))
         .help("if they are one, make an empty stride.toml there; if not, name one file");
-  for (const fs::path &source : sources.files)
-    loadFile(source, source.lexically_relative(path_).string());
+  loadFiles(sources.files);
   loadAssets(findCams(program_.sources, roots), camFiles_);
   loadAssets(findCncFiles(program_.sources, roots, filesFolder(path_, config_)), cncFiles_);
   loaded_ = !sources.files.empty();
@@ -110,13 +110,33 @@ void Project::loadAssets(const FoundFiles &found, std::vector<FileId> &ids) {
   }
 }
 
-void Project::loadFile(const fs::path &path, const std::string &name) {
-  if (const std::optional<FileId> id = program_.sources.load(path, name))
-    sourceFiles_.push_back(*id);
-  else
+/// Sources, which several threads read; those of a folder are named after their place in it.
+void Project::loadFiles(const std::vector<fs::path> &files) {
+  constexpr size_t kBytesPerFile = 1024; // to ask for a file takes as long as to read these
+  struct Read {
+    std::optional<std::string> bytes;
+    std::string name;
+    int error = 0; ///< of readSourceError()
+  };
+  std::vector<Read> read(files.size());
+  const unsigned threads =
+      Workers(program_.settings.jobs).threadsFor(files.size(), files.size() * kBytesPerFile);
+  Workers::each(files.size(), threads, [&](size_t i, unsigned) {
+    read[i].name = (single_ ? files[i] : files[i].lexically_relative(path_)).string();
+    read[i].bytes = program_.sources.read(files[i]);
+    read[i].error = errno;
+  });
+  for (size_t i = 0; i < files.size(); ++i) {
+    if (read[i].bytes) {
+      sourceFiles_.push_back(
+          program_.sources.addBytes(std::move(read[i].name), std::move(*read[i].bytes)));
+      continue;
+    }
+    errno = read[i].error;
     program_.diagnostics.report(
         Code::UnreadableFile, {},
-        fmt::format("`{}` cannot be read: {}", path.string(), readSourceError()));
+        fmt::format("`{}` cannot be read: {}", files[i].string(), readSourceError()));
+  }
 }
 
 bool Project::declaresNothing(const std::vector<ast::File *> &files) const {

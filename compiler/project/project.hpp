@@ -76,7 +76,7 @@ private:
   [[nodiscard]] std::vector<PouSymbol *> programsOf(const std::vector<ConfigName> &names) const;
   void load(const std::filesystem::path &given);
   void loadFolder();
-  void loadFile(const std::filesystem::path &path, const std::string &name);
+  void loadFiles(const std::vector<std::filesystem::path> &files);
   void analyse(Purpose purpose, const LibraryIndex &index);
   void readOwnConfig();
   bool addDeclarations(Purpose purpose, ProgramCheck programCheck, std::vector<ast::File *> &files,
