@@ -220,7 +220,7 @@ RC_GTEST_PROP(TurningProperty, AnyState, ()) {
   for (int i = 0; i < 10; ++i) {
     const Problem p = problemOf(random, false);
     RC_LOG() << p;
-    RC_ASSERT(slower(p, 40) == "");
+    RC_ASSERT(slower(p, 25) == "");
   }
 }
 
@@ -229,7 +229,7 @@ RC_GTEST_PROP(TurningProperty, WhileTheAxisSlowsDown, ()) {
   for (int i = 0; i < 10; ++i) {
     const Problem p = problemOf(random, true);
     RC_LOG() << p;
-    RC_ASSERT(slower(p, 80) == "");
+    RC_ASSERT(slower(p, 40) == "");
   }
 }
 
@@ -264,7 +264,7 @@ TEST(TurningProperty, NarrowPlaces) {
        {178.678487, 2009.10570, 2043.74667, 4302.86007}},
   };
   for (const Problem &p : problems)
-    EXPECT_EQ(slower(p, 1000), "") << p;
+    EXPECT_EQ(slower(p, 400), "") << p;
 }
 
 } // namespace
