@@ -3,6 +3,7 @@
 
 #include "compiler/codegen/consistent_copies.hpp"
 #include "compiler/codegen/description.hpp"
+#include "compiler/codegen/layout_numbers.hpp"
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
@@ -98,6 +99,8 @@ public:
     out += "  return &description;\n}\n";
     return {"build.cpp", std::move(out)};
   }
+
+  [[nodiscard]] const TypeTable &types() const { return types_; }
 
 private:
   // Libraries first, by name; then the project's files by path, in the order of the text.
@@ -487,7 +490,9 @@ std::vector<GeneratedFile> generateApplication(const Program &program, const App
   codegen::generateSources(context, files);
   codegen::generateDispatch(context, files); // of all libraries
   codegen::Application application(context, config);
-  files.push_back(application.app());
+  GeneratedFile app = application.app();
+  codegen::addOwnNumbers(context, application.types().withOwnNumbers(), files);
+  files.push_back(std::move(app));
   files.push_back(application.build());
   return files;
 }
