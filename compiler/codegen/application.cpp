@@ -3,6 +3,7 @@
 
 #include "compiler/codegen/consistent_copies.hpp"
 #include "compiler/codegen/description.hpp"
+#include "compiler/codegen/layout_numbers.hpp"
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
@@ -98,6 +99,8 @@ public:
     out += "  return &description;\n}\n";
     return {"build.cpp", std::move(out)};
   }
+
+  [[nodiscard]] const TypeTable &types() const { return types_; }
 
 private:
   // Libraries first, by name; then the project's files by path, in the order of the text.
@@ -480,14 +483,18 @@ std::vector<GeneratedFile> generateApplication(const Program &program, const App
     codegen::generateUnits(own, {}, files);
   }
   codegen::Context context(program, program.user);
-  const auto app = [&config](codegen::Context &own, std::vector<GeneratedFile> &to) {
-    to.push_back(codegen::Application(own, config).app());
+  std::vector<const PouSymbol *> withNumbers;
+  const auto app = [&](codegen::Context &own, std::vector<GeneratedFile> &to) {
+    codegen::Application application(own, config);
+    to.push_back(application.app());
+    withNumbers = application.types().withOwnNumbers();
   };
   const auto build = [&config](codegen::Context &own, std::vector<GeneratedFile> &to) {
     to.push_back(codegen::Application(own, config).build());
   };
   codegen::generateUnits(context, {codegen::generateDispatch, app, build},
                          files); // dispatch: of all libraries
+  codegen::addOwnNumbers(context, withNumbers, files);
   return files;
 }
 

@@ -5,6 +5,7 @@
 #include "compiler/semantics/storage.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace stc::codegen {
 
@@ -46,7 +47,8 @@ std::string numbersName(Context &context, const PouSymbol *pou) {
   return std::string(context.names.local(pou)) + "__numbers";
 }
 
-std::string ownNumbers(Context &context, const PouSymbol *pou) {
+/// The definition of its numbers.
+static std::string ownNumbers(Context &context, const PouSymbol *pou) {
   const std::string type(context.names.local(pou));
   const std::string name = numbersName(context, pou);
   std::string out = "\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\nnamespace st::";
@@ -63,6 +65,21 @@ std::string ownNumbers(Context &context, const PouSymbol *pou) {
   for (const VarSymbol *v : rootVariables({pou, false}))
     offset(fieldName(v));
   return out + "};\n}\n";
+}
+
+void addOwnNumbers(Context &context, const std::vector<const PouSymbol *> &pous,
+                   std::vector<GeneratedFile> &files) {
+  std::unordered_map<std::string, const PouSymbol *> byPath;
+  for (const PouSymbol *pou : pous)
+    byPath.emplace(context.names.source(pou), pou);
+  for (GeneratedFile &file : files) {
+    const auto found = byPath.find(file.path);
+    if (found == byPath.end())
+      continue;
+    const std::string numbers = ownNumbers(context, found->second);
+    file.text += numbers;
+    file.tables = numbers.size();
+  }
 }
 
 } // namespace stc::codegen

@@ -4,10 +4,12 @@
 // and the offsets of members. Those of blocks with many variables stand in the sources of the
 // blocks, which an edit of their variables compiles anyway; others in app.cpp.
 
+#include "compiler/codegen/codegen.hpp"
 #include "compiler/codegen/context/context.hpp"
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stc::codegen {
 
@@ -18,13 +20,15 @@ namespace stc::codegen {
 /// The kind of its instances in C++: `Program`.
 [[nodiscard]] std::string_view instanceKind(const PouSymbol *pou);
 
-/// The numbers of the type of its instances are in the source of the POU.
+/// The numbers of the type of its instances are in the source of the POU, where the application
+/// has such a type.
 [[nodiscard]] bool hasOwnNumbers(const PouSymbol *pou);
 /// What they are called there, without its namespace.
 [[nodiscard]] std::string numbersName(Context &context, const PouSymbol *pou);
-/// Their definition, for the end of the source. The members are as the type table lists them: the
-/// base, the type id, the variables.
-[[nodiscard]] std::string ownNumbers(Context &context, const PouSymbol *pou);
+/// Puts them at the ends of the POUs' sources, which are among `files`. The members are as the type
+/// table lists them: the base, the type id, the variables.
+void addOwnNumbers(Context &context, const std::vector<const PouSymbol *> &pous,
+                   std::vector<GeneratedFile> &files);
 
 } // namespace stc::codegen
 

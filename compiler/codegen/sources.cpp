@@ -1,7 +1,6 @@
 // Sources: one per POU, one for the initial values of structures and variable lists.
 
 #include "compiler/codegen/cpp/inlining.hpp"
-#include "compiler/codegen/layout_numbers.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/hierarchy.hpp"
@@ -148,11 +147,6 @@ void pou(Context &context, const PouSymbol *p, std::vector<GeneratedFile> &files
   }
   files.push_back(source.finish(p, p->name.text));
   files.back().runsOnce = runsOnce(context, p);
-  if (hasOwnNumbers(p)) {
-    const std::string numbers = ownNumbers(context, p);
-    files.back().text += numbers;
-    files.back().tables = numbers.size();
-  }
 }
 
 } // namespace

@@ -381,6 +381,14 @@ void TypeTable::addProgram(const PouSymbol *program, const std::string &place,
   rootOffsets_.push_back(offsetOf("App__", place));
 }
 
+std::vector<const PouSymbol *> TypeTable::withOwnNumbers() const {
+  std::vector<const PouSymbol *> found;
+  for (const Row &row : types_)
+    if (row.numbersOf != nullptr)
+      found.push_back(row.numbersOf);
+  return found;
+}
+
 /// The numbers of the application and of blocks, in the order of the lines.
 class TypeTable::Numbers {
 public:

@@ -43,6 +43,8 @@ public:
   void addProgram(const PouSymbol *program, const std::string &place, std::optional<uint32_t> task);
 
   [[nodiscard]] SymbolTexts texts() const;
+  /// The POUs whose sources have the numbers of their types.
+  [[nodiscard]] std::vector<const PouSymbol *> withOwnNumbers() const;
   [[nodiscard]] bool empty() const { return types_.empty(); }
   [[nodiscard]] Includes &includes() { return includes_; }
 

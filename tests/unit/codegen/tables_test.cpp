@@ -231,7 +231,8 @@ std::string blockOf(const std::string &head, int variables, const std::string &m
 TEST(CodegenTables, NumbersOfLargeBlocksAreInTheirSources) {
   const auto files = generate(
       {{"Main.st", blockOf("FUNCTION_BLOCK Large", 16) + blockOf("FUNCTION_BLOCK Small", 15) +
-                       blockOf("FUNCTION_BLOCK Bits", 16, "bit AT %MX3.1 : BOOL;\n") + R"(
+                       blockOf("FUNCTION_BLOCK Bits", 16, "bit AT %MX3.1 : BOOL;\n") +
+                       blockOf("FUNCTION_BLOCK Unused", 16) + R"(
 PROGRAM Main
 VAR large : Large; small : Small; bits : Bits; END_VAR
 END_PROGRAM
