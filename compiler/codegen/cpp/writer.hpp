@@ -32,7 +32,10 @@ public:
     text_.append(text);
     return *this;
   }
-  Writer &operator<<(const char *text) { return *this << std::string_view(text); }
+  /// Literals, whose lengths the compiler knows where it sees them.
+  [[gnu::always_inline]] Writer &operator<<(const char *text) {
+    return *this << std::string_view(text);
+  }
   Writer &operator<<(const std::string &text) { return *this << std::string_view(text); }
   Writer &operator<<(char c) {
     text_.push_back(c);

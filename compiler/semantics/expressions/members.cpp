@@ -25,20 +25,31 @@ static bool isSelf(const Expr *expr) {
   return symbol != nullptr && symbol->kind == SymbolKind::Self;
 }
 
+/// What may stand behind a name that is no variable.
+static std::vector<std::string_view> namesIn(const Symbol *space) {
+  std::vector<std::string_view> names;
+  if (space->kind == SymbolKind::Type)
+    return memberNames(static_cast<const TypeSymbol *>(space)->type);
+  if (space->kind == SymbolKind::Globals)
+    for (const VarSymbol *v : static_cast<const GlobalsSymbol *>(space)->variables)
+      names.push_back(v->name.text);
+  if (space->kind == SymbolKind::Space)
+    for (const auto &[id, symbol] : static_cast<const NamespaceSymbol *>(space)->names)
+      names.push_back(symbol->name.text);
+  return names;
+}
+
 const Type *checkMember(Context &c, MemberExpr *expr) {
   if (expr->bit >= 0)
     return checkBit(c, expr);
   followSelf(c, expr->base);
-  const std::string name(expr->name.text);
   if (Symbol *space = resolveNamespace(c, expr->base)) {
     Symbol *found = nullptr;
-    std::vector<std::string_view> candidates;
     if (space->kind == SymbolKind::Type) {
       auto *type = static_cast<TypeSymbol *>(space);
       resolve(c, type);
       if (type->type->kind == TypeKind::Enumeration)
         found = findEnumerator(typeAs<EnumType>(type->type), expr->name.id);
-      candidates = memberNames(type->type);
       if (type->type->kind != TypeKind::Enumeration) {
         auto &d = c.report(Code::NotAVariable, expr->base->span,
                            "`" + std::string(space->name.text) + "` is a type, not a variable",
@@ -50,21 +61,17 @@ const Type *checkMember(Context &c, MemberExpr *expr) {
       auto *list = static_cast<GlobalsSymbol *>(space);
       const auto it = list->scope.find(expr->name.id);
       found = it == list->scope.end() ? nullptr : it->second;
-      for (const VarSymbol *v : list->variables)
-        candidates.push_back(v->name.text);
     } else {
       found = nameInSpace(c, space, expr->name);
-      if (space->kind == SymbolKind::Space)
-        for (const auto &[id, symbol] : static_cast<NamespaceSymbol *>(space)->names)
-          candidates.push_back(symbol->name.text);
     }
     if (found == nullptr) {
       const Code code =
           space->kind == SymbolKind::Type ? Code::UnknownEnumerator : Code::UnknownMember;
       auto &d = c.report(code, expr->name.span,
-                         "`" + std::string(space->name.text) + "` has no `" + name + "`",
+                         "`" + std::string(space->name.text) + "` has no `" +
+                             std::string(expr->name.text) + "`",
                          "not found in " + describe(space));
-      helpMembers(d, expr->name, candidates);
+      helpMembers(d, expr->name, namesIn(space));
       return elementaryType(TypeKind::Error);
     }
     expr->symbol = found;
@@ -77,7 +84,6 @@ const Type *checkMember(Context &c, MemberExpr *expr) {
 }
 
 const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
-  const std::string name(expr->name.text);
   if (isError(base))
     return base;
   if (bitByName(c, expr))
@@ -91,6 +97,7 @@ const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
     }
   }
   if (base->kind != TypeKind::Structure && !isInstance(base) && base->kind != TypeKind::Interface) {
+    const std::string name(expr->name.text);
     auto &d = c.report(Code::UnknownMember, expr->name.span, typeName(base) + " has no members",
                        "`." + name + "` is not possible here");
     if (base->kind == TypeKind::Pointer)
@@ -109,8 +116,10 @@ const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
         isIncomplete(typeAs<PouType>(base)->symbol))
       return elementaryType(TypeKind::Error); // it may be inherited from what is not there
     // `w.cBit`: a bit by the name of a constant belongs to integers, which were handled above.
-    auto &d = c.report(Code::UnknownMember, expr->name.span,
-                       "`" + typeName(base) + "` has no member `" + name + "`", "unknown member");
+    auto &d =
+        c.report(Code::UnknownMember, expr->name.span,
+                 "`" + typeName(base) + "` has no member `" + std::string(expr->name.text) + "`",
+                 "unknown member");
     helpMembers(d, expr->name, memberNames(base));
     return elementaryType(TypeKind::Error);
   }

@@ -8,7 +8,11 @@
 #include "compiler/semantics/expressions/internal.hpp"
 #include "compiler/semantics/fold.hpp"
 
+#include <array>
+#include <cstddef>
 #include <limits>
+#include <memory_resource>
+#include <vector>
 
 namespace stc::sema {
 
@@ -211,7 +215,9 @@ const Type *checkUnary(Context &c, UnaryExpr *expr, const Type *expected) {
 
 const Type *checkBinary(Context &c, BinaryExpr *expr, const Type *expected) {
   // Sums of ten thousand terms lean to the left; walk down instead of recursing.
-  std::vector<BinaryExpr *> chain{expr};
+  std::array<std::byte, 15 * sizeof(BinaryExpr *)> room; // most are short
+  std::pmr::monotonic_buffer_resource memory(room.data(), room.size());
+  std::pmr::vector<BinaryExpr *> chain({expr}, &memory);
   while (chain.back()->left->kind == ExprKind::Binary)
     chain.push_back(as<BinaryExpr>(chain.back()->left));
   const bool comparison = isComparison(chain.back()->op);

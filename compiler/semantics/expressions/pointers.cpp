@@ -108,19 +108,19 @@ bool coercePointer(Context &c, Expr *expr, const Type *type, std::string_view wh
   const Type *from = expr->type;
   const bool toPointer = type->kind == TypeKind::Pointer;
   const bool fromPointer = from->kind == TypeKind::Pointer;
-  const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+  const auto prefix = [what] { return what.empty() ? std::string() : std::string(what) + ": "; };
   const bool null = expr->constant != nullptr && expr->constant->integer == 0;
   const bool isAddress = (isInteger(underlying(from)) && (null || bitWidth(from) >= 32)) ||
                          from->kind == TypeKind::AnyInteger;
   if (toPointer && fromPointer) {
-    checkPointee(c, expr, type, prefix);
+    checkPointee(c, expr, type, prefix());
   } else if (toPointer && isAddress) {
     if (!null)
-      reportIntegerAsPointer(c, expr, type, prefix);
+      reportIntegerAsPointer(c, expr, type, prefix());
   } else if (fromPointer && isInteger(type) && bitWidth(type) >= 32) {
     if (bitWidth(type) == 32)
       c.report(Code::PointerAsInteger, expr->span,
-               prefix + "an address has 64 bits, " + typeName(type) + " has 32",
+               prefix() + "an address has 64 bits, " + typeName(type) + " has 32",
                "works while the application's memory lies below 4 GiB")
           .help("keep it in a `" + typeName(from) + "` or in a variable of type `__UXINT`");
   } else if (!(isInteger(type) && bitWidth(type) == 32 && isDistance(expr))) {

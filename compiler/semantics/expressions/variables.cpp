@@ -16,12 +16,11 @@ using namespace ast;
 /// A variable that is named itself, or as a member: whether it can be assigned to, passed …
 static bool requireWritable(Context &c, const Expr *expr, const VarSymbol *variable,
                             std::string_view what) {
-  const std::string action(what);
   if (variable->isConstant) {
-    auto &d =
-        c.report(Code::AssignToConstant, expr->span,
-                 "cannot " + action + " the constant `" + std::string(variable->name.text) + "`",
-                 "declared CONSTANT");
+    auto &d = c.report(Code::AssignToConstant, expr->span,
+                       "cannot " + std::string(what) + " the constant `" +
+                           std::string(variable->name.text) + "`",
+                       "declared CONSTANT");
     noteDeclaration(d, variable);
     return false;
   }
@@ -31,10 +30,11 @@ static bool requireWritable(Context &c, const Expr *expr, const VarSymbol *varia
                         !insideOf(c, variable->owner);
   if (!isOutput || what == "pass") // outputs may be passed on as in-outs (TimeAxis.Axis)
     return true;
-  auto &d = c.report(Code::AssignToOutput, expr->span,
-                     "cannot " + action + " the output `" + std::string(variable->name.text) +
-                         "` of `" + std::string(variable->owner->name.text) + "`",
-                     "only the block itself writes its outputs");
+  auto &d =
+      c.report(Code::AssignToOutput, expr->span,
+               "cannot " + std::string(what) + " the output `" + std::string(variable->name.text) +
+                   "` of `" + std::string(variable->owner->name.text) + "`",
+               "only the block itself writes its outputs");
   noteDeclaration(d, variable);
   return false;
 }

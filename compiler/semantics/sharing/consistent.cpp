@@ -1,5 +1,5 @@
-// Variables with {attribute 'consistent'}: one task writes them, each other task that names one
-// reads a copy of its own.
+// Which variables one task alone writes. Of those with {attribute 'consistent'} each other task that
+// names one reads a copy of its own.
 
 #include "compiler/semantics/sharing/graph.hpp"
 
@@ -43,6 +43,21 @@ bool SharingGraph::readsCopy(uint32_t task, const PouSymbol *pou, const PlaceAcc
   reads.tasks.insert(task);
   reads.places.push_back(access.named);
   return true;
+}
+
+void SharingGraph::concludeWriters() {
+  for (const auto &[symbol, node] : roots_) {
+    uint32_t writer = kNoTask;
+    unsigned writers = 0;
+    for (const auto &[task, use] : node->inside) {
+      if ((use.flags & (kAccessWrite | kAccessWholeWrite | kAccessUnknown | kAccessCall)) == 0)
+        continue;
+      writer = task;
+      ++writers;
+    }
+    if (writers == 1)
+      program_.sharing.writers.emplace(symbol, writer);
+  }
 }
 
 void SharingGraph::concludeConsistent() {

@@ -448,21 +448,6 @@ void SharingGraph::concludeImage() {
 // ----------------------------------------------------------------------------------------------------
 // conclusions
 
-void SharingGraph::concludeWriters() {
-  for (const auto &[symbol, node] : roots_) {
-    uint32_t writer = kNoTask;
-    unsigned writers = 0;
-    for (const auto &[task, use] : node->inside) {
-      if ((use.flags & (kAccessWrite | kAccessWholeWrite | kAccessUnknown | kAccessCall)) == 0)
-        continue;
-      writer = task;
-      ++writers;
-    }
-    if (writers == 1)
-      program_.sharing.writers.emplace(symbol, writer);
-  }
-}
-
 /// Whoever follows an address to something shared does it atomically, too.
 void SharingGraph::concludeAddresses() {
   Sharing &sharing = program_.sharing;
