@@ -468,23 +468,6 @@ TEST(ParabolicProperty, ManyScalesToAVelocity) {
   }
 }
 
-// From a state on the way of a plan with the weaker rate to its target: often a mere change of
-// velocity, where the last digits of velocities say how much longer than that it takes.
-TEST(ParabolicProperty, TheRestOfAWeakerPlan) {
-  Random random(41);
-  for (int i = 0; i < 50000; ++i) {
-    Problem p = unlikeProblem(random);
-    p.endVelocity = p.limits.velocity * random.uniform(-1, 1);
-    const double rate = std::min(p.limits.acceleration, p.limits.deceleration);
-    const JerkLimits weaker = {p.limits.velocity, rate, rate, p.limits.jerk};
-    Profile profile;
-    ASSERT_EQ(planParabolic(profile, p.start, p.target, p.endVelocity, weaker), PlanError::None);
-    p.start = profile.at(random.uniform(0, 1) * profile.duration);
-    ASSERT_EQ(planParabolic(profile, p.start, p.target, p.endVelocity, p.limits), PlanError::None);
-    ASSERT_EQ(broken(profile, p), "") << i << ": " << p;
-  }
-}
-
 TEST(ParabolicProperty, AnyNumberIsPlannedOrRefused) {
   Random random(13);
   int planned = 0;
