@@ -492,8 +492,7 @@ std::vector<GeneratedFile> generateApplication(const Program &program, const App
   const auto build = [&config](codegen::Context &own, std::vector<GeneratedFile> &to) {
     to.push_back(codegen::Application(own, config).build());
   };
-  codegen::generateUnits(context, {codegen::generateDispatch, app, build},
-                         files); // dispatch: of all libraries
+  codegen::generateUnits(context, {codegen::generateDispatch, app, build}, files);
   codegen::addOwnNumbers(context, withNumbers, files);
   return files;
 }

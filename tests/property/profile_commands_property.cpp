@@ -2,6 +2,7 @@
 // MC_VelocityProfile, MC_AccelerationProfile), keys, homing and stops among moves, on one axis with
 // a drive. Whatever they ask for: one state, steady set values, every command ends once and in one
 // way, and each course is where its points say at their times.
+#include "tests/property/command_block.hpp"
 #include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
@@ -36,7 +37,10 @@
 
 namespace {
 
+using stride::test::Asked;
 using stride::test::AxisRig;
+using stride::test::CommandBlock;
+using stride::test::commandBlock;
 using stride::test::fresh;
 using stride::test::Random;
 namespace state = stride::axis::state;
@@ -48,29 +52,6 @@ constexpr double kJerk = 6000;
 constexpr double kPeriod = 37;
 
 enum class What : uint8_t { Position, Velocity, Acceleration };
-
-/// A course as it was asked for, judged by its points alone.
-struct Asked {
-  bool fresh = false;         ///< Its edge comes with the next call.
-  std::vector<double> times;  ///< From the edge on. [s]
-  std::vector<double> values; ///< Absolute.
-};
-
-/// A block behind what all have in common.
-struct CommandBlock {
-  std::string name;
-  std::function<void(bool)> call;     ///< With Execute.
-  std::function<void(Random &)> draw; ///< New inputs.
-  std::function<bool()> done, aborted, failed, busy;
-  std::function<int()> error;
-  std::function<int()> mode;                  ///< BufferMode.
-  std::function<double()> steepest;           ///< Acceleration that its course may have. [u/s^2]
-  std::function<double(const Asked &)> judge; ///< How far the axis is off the course now.
-  std::shared_ptr<Asked> asked;
-  bool execute = false;
-  bool wasBusy = false;
-  double age = 0; ///< Since the edge. [s]
-};
 
 class CoursesAndKeys {
 public:
@@ -114,27 +95,7 @@ private:
 
   template <class Block> CommandBlock &common(const std::string &name, std::shared_ptr<Block> b) {
     b->Axis = &rig_.axis;
-    CommandBlock i;
-    i.name = name;
-    i.aborted = [] { return false; };
-    if constexpr (requires { b->CommandAborted; })
-      i.aborted = [b] { return b->CommandAborted != 0; };
-    i.failed = [b] { return b->Error != 0; };
-    i.busy = [b] { return b->Busy != 0; };
-    i.error = [b] { return static_cast<int>(b->stBlock.iError); };
-    i.done = [] { return false; };
-    if constexpr (requires { b->Done; })
-      i.done = [b] { return b->Done != 0; };
-    else if constexpr (requires { b->InVelocity; })
-      i.done = [b] { return b->InVelocity != 0; };
-    else if constexpr (requires { b->InEndVelocity; })
-      i.done = [b] { return b->InEndVelocity != 0; };
-    i.draw = [](Random &) {};
-    if constexpr (requires { b->BufferMode; })
-      i.mode = [b] { return static_cast<int>(b->BufferMode); };
-    i.steepest = [] { return 0.0; };
-    blocks_.push_back(std::move(i));
-    return blocks_.back();
+    return blocks_.emplace_back(commandBlock(name, std::move(b)));
   }
 
   template <class Block, class Draw> CommandBlock &add(const std::string &name, Draw draw) {

@@ -209,7 +209,7 @@ TEST_F(Cli, BuildPutsTheApplicationWhereItIsTold) {
 TEST_F(Cli, BuildEmitsReadableSources) {
   write("a.st", kCounter);
   succeed({"build", "a.st", "--emit", "cpp", "-o", "cpp"});
-  EXPECT_THAT(read("cpp/app.cpp"), HasSubstr("\"PLC_PRG\""));
+  EXPECT_THAT(read("cpp/app.cpp"), HasSubstr("\"R\\tPLC_PRG\\t"));
   EXPECT_FALSE(exists("a.so"));
 }
 

@@ -49,11 +49,6 @@ std::string text(const Context &c, Span span) {
   return usable ? std::string(all) : "…";
 }
 
-static void declarations(Context &c, std::span<VarDecl *const> variables);
-static void construct(Context &c, std::span<Argument> arguments);
-static void readBinary(Context &c, BinaryExpr *expr);
-static void call(Context &c, CallExpr *expr);
-
 void walk(Context &c, size_t index) {
   c.current = index;
   Body &body = c.bodies[index];

@@ -1,5 +1,5 @@
-// Which variables one task alone writes. Of those with {attribute 'consistent'} each other task that
-// names one reads a copy of its own.
+// Which variables one task alone writes. Of those with {attribute 'consistent'} each other task
+// that names one reads a copy of its own.
 
 #include "compiler/semantics/sharing/graph.hpp"
 
