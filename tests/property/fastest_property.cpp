@@ -3,6 +3,7 @@
 #include "runtime/numeric/profile/parabolic.hpp"
 
 #include "tests/property/jerk_model.hpp"
+#include "tests/property/move_problem.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -18,6 +19,7 @@ using stride::motion::PlanError;
 using stride::motion::planParabolic;
 using stride::motion::Profile;
 using stride::motion::State;
+using Problem = stride::test::MoveProblem;
 using stride::test::Model;
 using stride::test::Moment;
 using stride::test::pushed;
@@ -61,24 +63,10 @@ long double shortest(const Model &model, const Moment &start, int grid) {
                   shortestPushed(model.mirrored(), mirrored, grid));
 }
 
-struct Problem {
-  State start;
-  double target;
-  double endVelocity;
-  JerkLimits limits;
-
-  [[nodiscard]] Model model() const {
-    return {-limits.velocity, limits.velocity, limits.acceleration,    limits.acceleration,
-            limits.jerk,      endVelocity,     target - start.position};
-  }
-};
-
-std::ostream &operator<<(std::ostream &out, const Problem &p) {
-  out.precision(17);
-  return out << "{{" << p.start.position << ", " << p.start.velocity << ", " << p.start.acceleration
-             << "}, " << p.target << ", " << p.endVelocity << ", {" << p.limits.velocity << ", "
-             << p.limits.acceleration << ", " << p.limits.deceleration << ", " << p.limits.jerk
-             << "}}";
+Model modelOf(const Problem &p) {
+  const JerkLimits &limits = p.limits;
+  return {-limits.velocity, limits.velocity, limits.acceleration,        limits.acceleration,
+          limits.jerk,      p.endVelocity,   p.target - p.start.position};
 }
 
 /// States that can keep the limits. `turning`: the axis turns on its way to the end velocity, and
@@ -101,7 +89,7 @@ Problem problemOf(Random &random, bool turning) {
     p.start.velocity = side * std::fabs(p.start.velocity) * random.uniform(0, 1);
     p.endVelocity = -side * std::fabs(p.endVelocity);
   }
-  const Model model = p.model();
+  const Model model = modelOf(p);
   const Moment direct =
       model.changed({0, 0, p.start.velocity, p.start.acceleration}, p.endVelocity);
   const double length = static_cast<double>(direct.time) * p.limits.velocity;
@@ -119,7 +107,7 @@ std::string slower(const Problem &p, int grid, double slack) {
   if (profile.end.position != p.target || profile.end.velocity != p.endVelocity)
     return "end";
   const auto best = static_cast<double>(
-      shortest(p.model(), {0, 0, p.start.velocity, p.start.acceleration}, grid));
+      shortest(modelOf(p), {0, 0, p.start.velocity, p.start.acceleration}, grid));
   if (!(profile.duration <= best * (1 + slack)))
     return std::to_string(profile.duration) + " s, but " + std::to_string(best) + " is enough";
   return "";

@@ -1,6 +1,7 @@
 // Properties of the jerk-limited planner over random states, targets and limits.
 #include "runtime/numeric/profile/parabolic.hpp"
 
+#include "tests/property/move_problem.hpp"
 #include "tests/support/cases.hpp"
 #include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
@@ -22,22 +23,8 @@ using stride::motion::planParabolicVelocity;
 using stride::motion::Profile;
 using stride::motion::Segment;
 using stride::motion::State;
+using Problem = stride::test::MoveProblem;
 using stride::test::casesOf;
-
-struct Problem {
-  State start;
-  double target;
-  double endVelocity;
-  JerkLimits limits;
-};
-
-std::ostream &operator<<(std::ostream &out, const Problem &p) {
-  out.precision(17);
-  return out << "{{" << p.start.position << ", " << p.start.velocity << ", " << p.start.acceleration
-             << "}, " << p.target << ", " << p.endVelocity << ", {" << p.limits.velocity << ", "
-             << p.limits.acceleration << ", " << p.limits.deceleration << ", " << p.limits.jerk
-             << "}}";
-}
 
 class Random : public stride::test::Random {
 public:

@@ -5,6 +5,7 @@
 #include "runtime/numeric/profile/parabolic.hpp"
 
 #include "tests/property/jerk_model.hpp"
+#include "tests/property/move_problem.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ using stride::motion::PlanError;
 using stride::motion::planParabolic;
 using stride::motion::Profile;
 using stride::motion::State;
+using Problem = stride::test::MoveProblem;
 using stride::test::Moment;
 using stride::test::Random;
 
@@ -156,21 +158,6 @@ struct Model {
                     shortestUp({0, 0, -start.v, -start.a}, -distance, -end, grid));
   }
 };
-
-struct Problem {
-  State start;
-  double target;
-  double endVelocity;
-  JerkLimits limits;
-};
-
-std::ostream &operator<<(std::ostream &out, const Problem &p) {
-  out.precision(17);
-  return out << "{{" << p.start.position << ", " << p.start.velocity << ", " << p.start.acceleration
-             << "}, " << p.target << ", " << p.endVelocity << ", {" << p.limits.velocity << ", "
-             << p.limits.acceleration << ", " << p.limits.deceleration << ", " << p.limits.jerk
-             << "}}";
-}
 
 /// States that can keep the limits. `slowing`: the axis slows down towards an end velocity on the
 /// other side of 0, and the target is near the place where it would have got it: there a later end
