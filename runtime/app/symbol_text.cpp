@@ -44,17 +44,18 @@ private:
                 " of its symbols); build it again");
   }
 
-  /// Rows are not moved, and none is too many.
+  /// The long lists are not moved while they grow.
   void reserve() {
-    size_t counts[3] = {};
+    size_t types = 0;
+    size_t members = 0;
     char before = '\n';
     for (const char c : to_.text_) {
-      if (before == '\n')
-        ++counts[c == 'T' ? 0 : c == 'M' ? 1 : 2];
+      types += before == '\n' && c == 'T' ? 1 : 0;
+      members += before == '\n' && c == 'M' ? 1 : 0;
       before = c;
     }
-    to_.types_.reserve(counts[0]);
-    to_.members_.reserve(counts[1]);
+    to_.types_.reserve(types);
+    to_.members_.reserve(members);
   }
 
   void line(char kind) {
