@@ -15,7 +15,6 @@
 
 namespace {
 
-using stride::motion::JerkLimits;
 using stride::motion::PlanError;
 using stride::motion::planParabolic;
 using stride::motion::planParabolicStop;
