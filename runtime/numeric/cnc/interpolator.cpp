@@ -22,6 +22,8 @@ void removeFirst(Interpolator &interpolator, const Command &command) noexcept {
     removeAt(command.queue, 0);
   if (interpolator.known > 0)
     --interpolator.known;
+  if (interpolator.shifted > 0)
+    --interpolator.shifted;
   interpolator.hasHere = false;
   interpolator.passed = 0;
   interpolator.begun = false;
@@ -108,26 +110,35 @@ void put(Interpolator &interpolator, const PathObject &object, double way) noexc
       interpolator.here.isStill ? numeric::kZero : Vector3{point.d1[0], point.d1[1], point.d1[2]};
 }
 
+/// The end of the n-th object from the present one on, where it begins at a way: to the bit what
+/// the motion has been told, for else it would rest before the end or after it for ever. Where ways
+/// have been made smaller since then, a sum of them would be rounded otherwise than it was. [u]
+double endOf(const Interpolator &interpolator, int64_t n, double begin, double length) noexcept {
+  const double shift = n < interpolator.shifted ? interpolator.shift : 0.0;
+  return begin + shift + length - shift;
+}
+
 /// Goes from object to object up to where the motion is.
 void settle(Interpolator &interpolator, const Command &command, double way) noexcept {
   while (interpolator.hasHere) {
     PathObject room;
     const PathObject &object = *ahead(interpolator, command, 0, room);
     const double length = interpolator.here.length;
+    const double end = endOf(interpolator, 0, interpolator.hereBegin, length);
     const double along = way - interpolator.hereBegin;
     Progress &progress = interpolator.progress;
     progress.source = object.sourceLine;
     progress.objectLength = length;
     progress.objectWay = smaller(along, length);
-    if (way < interpolator.hereBegin + length) {
+    if (way < end) {
       passSwitches(interpolator, object, along / length);
-      put(interpolator, object, along);
+      put(interpolator, object, progress.objectWay);
       return;
     }
     passSwitches(interpolator, object, exact::kInfinity);
     put(interpolator, object, length);
     interpolator.position = object.end;
-    interpolator.hereBegin += length;
+    interpolator.hereBegin = end;
     removeFirst(interpolator, command);
     if (!arrive(interpolator, command))
       return;
@@ -138,14 +149,14 @@ void settle(Interpolator &interpolator, const Command &command, double way) noex
 /// come to rest.
 double stepEnd(Interpolator &interpolator, const Command &command) noexcept {
   const double least = path::stoppingWay(interpolator.motion);
-  double end = interpolator.hereBegin + interpolator.here.length;
+  double end = endOf(interpolator, 0, interpolator.hereBegin, interpolator.here.length);
   for (int64_t i = 1; end < least && i < interpolator.known; ++i) {
     PathObject room;
     const PathObject &object = *ahead(interpolator, command, i, room);
     path::Segment segment;
     if (waitsAt(object) || !segmentOf(interpolator, object, segment))
       break;
-    end += segment.length;
+    end = endOf(interpolator, i, end, segment.length);
   }
   return end;
 }
@@ -200,12 +211,15 @@ void turn(Interpolator &interpolator, const Command &command) noexcept {
   path::Motion &motion = interpolator.motion;
   const path::MotionSettings settings = motion.planned.settings;
   const double left =
-      interpolator.hasHere ? interpolator.hereBegin + interpolator.here.length - motion.way : 0.0;
+      interpolator.hasHere
+          ? endOf(interpolator, 0, interpolator.hereBegin, interpolator.here.length) - motion.way
+          : 0.0;
   path::reset(motion, settings);
   interpolator.backwards = !interpolator.backwards;
   if (!interpolator.hasHere)
     interpolator.first += interpolator.backwards ? -1 : 1;
   interpolator.known = 0;
+  interpolator.shifted = 0;
   interpolator.hasNext = false;
   interpolator.passed = 0;
   interpolator.begun = false;
@@ -264,10 +278,19 @@ void drive(Interpolator &interpolator, const Command &command) noexcept {
     settle(interpolator, command, motion.way);
   }
   progress.length = motion.way - before;
-  const double by = path::rebase(motion);
+}
+
+/// Makes ways smaller when they have become large: not again before all objects that were known the
+/// last time have been passed, so that one shift holds for all that endOf() asks of.
+void rebase(Interpolator &interpolator) noexcept {
+  if (interpolator.shifted > 0)
+    return;
+  const double by = path::rebase(interpolator.motion);
   interpolator.hereBegin -= by;
   interpolator.nextBegin -= by;
   interpolator.nextEnd -= by;
+  interpolator.shift = by;
+  interpolator.shifted = by > 0.0 ? interpolator.known + (interpolator.hasNext ? 1 : 0) : 0;
 }
 
 } // namespace
@@ -296,6 +319,7 @@ void cycle(Interpolator &interpolator, const Command &command) noexcept {
     return;
   }
   drive(interpolator, command);
+  rebase(interpolator);
   progress.position = interpolator.position;
   if (!(progress.length > 0.0))
     progress.tangent = numeric::kZero;

@@ -74,6 +74,8 @@ struct Interpolator {
   double dwell;       ///< Time that is left of a dwell. [s]
   int64_t first;      ///< Index in the queue of the present object; 0 if objects leave it.
   int64_t known;      ///< How many objects from there on are known to `motion`.
+  double shift;       ///< How far ways have been made smaller since `shifted` objects ... [u]
+  int64_t shifted;    ///< ... from there on became known.
   uint32_t switches;  ///< Bit n - 1: switch n is on.
   int16_t error;      ///< SMC_ERROR
   int16_t warning;    ///< SMC_ERROR that does not stop anything.

@@ -90,9 +90,11 @@ public:
   bool run() {
     constexpr uint32_t kLow = 120; // objects that are left when the others work again
     constexpr int kMost = 10000;
+    constexpr int64_t kMostCycles = 10000000; // the path takes a million
     Queue &last = queues_[4]->queue;
     const auto runs = [this] {
-      return interpolator_->phase != Phase::Finished && interpolator_->phase != Phase::Failed;
+      return interpolator_->phase != Phase::Finished && interpolator_->phase != Phase::Failed &&
+             cycles_ < kMostCycles;
     };
     for (bool begun = false; runs(); begun = true) {
       for (int i = 0; i < kMost && !isFull(&last) && limitStream_.phase == StreamPhase::Running;

@@ -1,6 +1,8 @@
 // Paths of sizes at both ends of what there is: one object of 10^9 u, and objects of a thousandth.
 #include "tests/unit/cnc/interpolator_drive.hpp"
 
+#include <random>
+
 namespace stride::test {
 namespace {
 
@@ -60,6 +62,55 @@ TEST_P(EachLawExtremes, LosesLittleOnShortObjects) {
   const double ramps =
       rampTime(GetParam(), kFeed, 1000, 20000) + rampTime(GetParam(), kFeed, 500, 20000);
   EXPECT_LT(drive.time, (20 / kFeed + ramps / 2) * 1.2);
+}
+
+/// A winding path of more than 500,000 u, on which ways are made smaller several times: places to
+/// rest and functions, which are passed at their places only. How many functions there are.
+int16_t windingPath(Drive &drive, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto between = [&](double least, double most) {
+    return std::uniform_real_distribution<>(least, most)(random);
+  };
+  int16_t functions = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = between(-0.02, 0.02);
+    const double length = between(100, 2500);
+    PathObject &line =
+        drive.line(drive.last.coordinate[0] + length * std::cos(angle),
+                   drive.last.coordinate[1] + length * std::sin(angle), i % 7 == 5 ? 0 : 2e5);
+    line.velocity = 2e5;
+    line.acceleration = 7e6;
+    line.deceleration = 5e6;
+    if (i % 31 == 17) {
+      line.velocityEnd = 0;
+      drive.function(++functions);
+    }
+  }
+  drive.queue.endOfList = 1;
+  return functions;
+}
+
+TEST_P(EachLawExtremes, PassesAllPlacesOfLongPaths) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    Drive drive(GetParam(), 500);
+    drive.command.jerk = 1e9;
+    drive.command.singleStep = seed % 4 == 3;
+    drive.command.acknowledge = true;
+    const int functions = windingPath(drive, seed);
+    const cnc::Position end = drive.last;
+    drive.start();
+    int passed = 0;
+    drive.run([&] {
+      const int function = drive.progress().function;
+      EXPECT_TRUE(function == 0 || function == passed || function == passed + 1);
+      passed = std::max(passed, function);
+      return drive.interpolator->phase == Phase::Finished;
+    });
+    EXPECT_EQ(passed, functions);
+    EXPECT_EQ(drive.x(), end.coordinate[0]);
+    EXPECT_EQ(drive.y(), end.coordinate[1]);
+  }
 }
 
 } // namespace
