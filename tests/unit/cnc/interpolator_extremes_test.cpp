@@ -113,5 +113,38 @@ TEST_P(EachLawExtremes, PassesAllPlacesOfLongPaths) {
   }
 }
 
+/// To and fro, turning at any place, and to the end of it.
+TEST_P(EachLawExtremes, GoesBackOnLongPaths) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    Drive drive(GetParam(), 500);
+    drive.command.jerk = 1e9;
+    drive.command.twoWays = true;
+    drive.command.acknowledge = true;
+    (void)windingPath(drive, seed);
+    const cnc::Position end = drive.last;
+    drive.start();
+    for (int turn = 0; turn < 10; ++turn) {
+      drive.command.override = turn % 2 == 0 ? 1.0 : -0.7;
+      const double until = drive.time + std::uniform_real_distribution<>(0.1, 1.5)(random);
+      drive.run([&] { return drive.time >= until; });
+    }
+    const auto runToEnd = [&](double override) {
+      drive.command.override = override;
+      while (drive.interpolator->backwards != (override < 0)) // it brakes, and turns
+        drive.step();
+      drive.run([&] { return drive.progress().atEnd; });
+    };
+    runToEnd(1);
+    EXPECT_EQ(drive.interpolator->phase, Phase::Moving);
+    EXPECT_EQ(drive.x(), end.coordinate[0]);
+    EXPECT_EQ(drive.y(), end.coordinate[1]);
+    runToEnd(-1);
+    EXPECT_EQ(drive.x(), 0);
+    EXPECT_EQ(drive.y(), 0);
+  }
+}
+
 } // namespace
 } // namespace stride::test
