@@ -15,6 +15,9 @@ constexpr int16_t kNoCheckVelocities = 1006;
 constexpr int16_t kPathExceeded = 1007;
 constexpr int16_t kNoQueue = 1501;
 
+/// What of a cycle may be left of a dwell when it is over: a sum of cycles is rounded.
+constexpr double kRounding = 1e-3;
+
 void removeFirst(Interpolator &interpolator, const Command &command) noexcept {
   if (command.twoWays)
     interpolator.first += interpolator.backwards ? -1 : 1;
@@ -62,7 +65,7 @@ bool finishesHere(Interpolator &interpolator, const Command &command,
   }
   if (number == kDwell) {
     interpolator.dwell = first ? object.parameterRange[0] : interpolator.dwell - command.cycle;
-    return !(interpolator.dwell > 0.0);
+    return !(interpolator.dwell > kRounding * command.cycle);
   }
   interpolator.progress.function = static_cast<uint16_t>(number);
   if (first || !command.acknowledge)

@@ -72,6 +72,22 @@ TEST(Interpolator, Dwells) {
   EXPECT_NEAR(time[1] - time[0], 0.25, 3 * kCycle);
 }
 
+/// As many cycles as a dwell has, also where the sum of cycles is rounded to less than it.
+TEST(Interpolator, DwellsForWholeCycles) {
+  for (const int cycles : {1, 7, 999, 1000, 1001, 3600}) {
+    Drive drive;
+    drive.line(30, 0, 0);
+    drive.function(cnc::kDwell, kCycle * cycles);
+    drive.line(60, 0);
+    drive.queue.endOfList = 1;
+    drive.start();
+    drive.run([&] { return drive.x() == 30; });
+    const double begin = drive.time;
+    drive.run([&] { return drive.x() > 30; });
+    EXPECT_NEAR((drive.time - begin) / kCycle, cycles, 1e-6) << cycles;
+  }
+}
+
 TEST(Interpolator, DrivesUpToASynchronisationThatTheDecoderWaitsAt) {
   Drive drive;
   drive.line(30, 0, 0);
