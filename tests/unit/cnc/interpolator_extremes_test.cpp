@@ -146,5 +146,43 @@ TEST_P(EachLawExtremes, GoesBackOnLongPaths) {
   }
 }
 
+/// Objects that are shorter than what a way far along can tell apart, among others of any length.
+TEST_P(EachLawExtremes, PassesObjectsOfAnyLength) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    Drive drive(GetParam(), 1100);
+    drive.command.jerk = 1e9;
+    drive.command.acknowledge = true;
+    double y = 0;
+    int16_t functions = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const double length = std::pow(10, std::uniform_real_distribution<>(-14, 3.5)(random));
+      y = i % 5 == 3 ? y + length : y;
+      PathObject &line = drive.line(drive.last.coordinate[0] + (i % 5 == 3 ? 0 : length), y);
+      line.length = length;
+      line.velocity = 2e5;
+      line.velocityEnd = i % 5 == 3 || i % 5 == 2 || i % 31 == 17 ? 0 : 2e5;
+      line.acceleration = 7e6;
+      line.deceleration = 5e6;
+      if (i % 31 == 17)
+        drive.function(++functions);
+    }
+    drive.queue.endOfList = 1;
+    const cnc::Position end = drive.last;
+    drive.start();
+    int passed = 0;
+    drive.run([&] {
+      passed = std::max<int>(passed, drive.progress().function);
+      return drive.interpolator->phase == Phase::Finished ||
+             drive.interpolator->phase == Phase::Failed;
+    });
+    EXPECT_EQ(drive.interpolator->error, 0);
+    EXPECT_EQ(passed, functions);
+    EXPECT_EQ(drive.x(), end.coordinate[0]);
+    EXPECT_EQ(drive.y(), end.coordinate[1]);
+  }
+}
+
 } // namespace
 } // namespace stride::test
