@@ -30,6 +30,9 @@ TextWords describeText(GCodeError error) {
     return {"a word needs a value", "neither a number nor a variable follows", ""};
   case GCodeError::BadNumber:
     return {"this is no number", "numbers are written 10, -0.5 or 3.25", ""};
+  case GCodeError::Exponent:
+    return {"numbers have no exponent here", "this would be an acceleration",
+            "write the number out, as 0.00001; a word E stands after a blank"};
   case GCodeError::NotWhole:
     return {"this word needs a whole number", "it has a fraction", ""};
   case GCodeError::UnclosedComment:

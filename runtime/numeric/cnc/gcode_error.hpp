@@ -13,6 +13,7 @@ enum class GCodeError : uint8_t {
   UnknownWord,         ///< No such word.
   MissingValue,        ///< Neither number nor variable after the letters.
   BadNumber,           ///< A sign or a point without digits, or too many digits.
+  Exponent,            ///< A number as 1e-05, which would be two words.
   NotWhole,            ///< A fraction where only whole numbers are.
   UnexpectedCharacter, ///< No letter where a word should begin.
   UnclosedComment,     ///< No `)` in the line.

@@ -68,8 +68,18 @@ bool numberOf(const Scanner &s, double &value) noexcept {
   return scanned.used == static_cast<uint32_t>(length);
 }
 
+/// Whether `digits` are those of an exponent: a sign and two or three digits.
+bool isExponent(const Scanner &s) noexcept {
+  const bool hasSign = s.digits[0] == '-' || s.digits[0] == '+';
+  if (s.exponent == Exponent::No || !hasSign || s.decimals >= 0 || s.count < 3 || s.count > 4)
+    return false;
+  return s.exponent == Exponent::Digits || s.digits[1] == '0';
+}
+
 ScanEvent endNumber(Scanner &s) noexcept {
   double value = 0.0;
+  if (isExponent(s))
+    return fail(s, GCodeError::Exponent);
   if (!numberOf(s, value))
     return fail(s, GCodeError::BadNumber);
   const uint8_t code = s.word.letter;
@@ -153,17 +163,31 @@ ScanEvent beginValue(Scanner &s, uint8_t c) noexcept {
   return ScanEvent::None;
 }
 
+/// The first letter of a word.
+void beginWord(Scanner &s, uint8_t c) noexcept {
+  constexpr int32_t kManyDigits = 12; // nobody writes so many by hand
+  const bool isSmall = c >= 'a';
+  const bool isSure = (isSmall && !s.lowerCase) || s.count >= kManyDigits;
+  s.exponent = !s.endsInDigit || upper(c) != 'E' ? Exponent::No
+               : isSure                          ? Exponent::Digits
+                                                 : Exponent::Zeros;
+  s.lowerCase = isSmall;
+  s.state = ScanState::Letters;
+  s.letters[0] = upper(c);
+  s.count = 1;
+}
+
 /// A byte between words, or at the start of a line.
 ScanEvent between(Scanner &s, uint8_t c, bool &taken) noexcept {
   const bool start = s.state == ScanState::Start;
+  if (!isLetter(c))
+    s.endsInDigit = false;
   if (isBlank(c))
     return ScanEvent::None;
   s.wordOffset = s.offset;
   s.state = ScanState::Between;
   if (isLetter(c)) {
-    s.state = ScanState::Letters;
-    s.letters[0] = upper(c);
-    s.count = 1;
+    beginWord(s, c);
   } else if (c == '(') {
     s.state = ScanState::Comment;
   } else if (c == '/') {
@@ -211,6 +235,7 @@ ScanEvent number(Scanner &s, uint8_t c, bool &taken) noexcept {
   taken = false;
   if (c == '.' || c == '+' || c == '-' || c == '$')
     return fail(s, GCodeError::BadNumber);
+  s.endsInDigit = true;
   return endNumber(s);
 }
 
@@ -276,6 +301,7 @@ void newLine(Scanner &s, uint8_t c) noexcept {
   ++s.line;
   s.lastLine = s.offset + 1;
   s.state = ScanState::Start;
+  s.endsInDigit = false;
 }
 
 } // namespace

@@ -39,6 +39,14 @@ enum class ScanState : uint8_t {
   Ended,
 };
 
+/// Whether a word E is the exponent of the number before it, as other programs write small numbers:
+/// 1e-05 and 1.2246467991473532e-16 are no words of a path.
+enum class Exponent : uint8_t {
+  No,
+  Zeros,  ///< It stands right after a number: with a sign and zeros before its digits it is one.
+  Digits, ///< So it is with a sign and two digits: a small e after a capital, or after many digits.
+};
+
 /// All that it keeps. Trivially copyable; begins as Scanner{}.
 struct Scanner {
   GCodeWord word;      ///< The last one, without an address.
@@ -55,6 +63,9 @@ struct Scanner {
   bool begun;          ///< There has been a sentence, or a name.
   bool carriageReturn; ///< The last byte was one.
   bool variable;       ///< The last word has a variable: `name`.
+  bool lowerCase;      ///< The letter of the last word is small.
+  bool endsInDigit;    ///< The last byte was the last one of a number.
+  Exponent exponent;   ///< What the word may be instead.
   char letters[kMostLetters];
   char digits[kMostDigits];
   char name[kMostName + 1]; ///< Of the variable or of the program; ends with 0.

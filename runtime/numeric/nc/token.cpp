@@ -15,6 +15,27 @@ Token bad(Token token, Error error) noexcept {
   return token;
 }
 
+/// Whether what follows the number is an exponent, as other programs write small numbers: 1e-05 and
+/// 1.2246467991473532e-16 would be two words. cnc::Exponent says the same of the other language.
+bool hasExponent(const ProgramLine &line, int32_t begin, int32_t end) noexcept {
+  constexpr int32_t kManyDigits = 12;
+  const char *const text = line.text;
+  const char letter = text[end];
+  if ((letter != 'e' && letter != 'E') || (text[end + 1] != '-' && text[end + 1] != '+'))
+    return false;
+  int32_t digits = 0;
+  while (isDigit(text[end + 2 + digits]))
+    ++digits;
+  const char after = text[end + 2 + digits];
+  if (digits < 2 || digits > 3 || after == '.')
+    return false;
+  int32_t word = begin - 1;
+  while (word >= 0 && (text[word] == '-' || text[word] == '+' || text[word] == ' '))
+    --word;
+  const bool isAfterCapital = word >= 0 && text[word] >= 'A' && text[word] <= 'Z';
+  return text[end + 2] == '0' || (letter == 'e' && isAfterCapital) || end - begin >= kManyDigits;
+}
+
 Token numberAt(const ProgramLine &line, Token token) noexcept {
   // Written as `5.` or `.5` a number is none in ST.
   char text[kMostDigits + 4];
@@ -36,7 +57,7 @@ Token numberAt(const ProgramLine &line, Token token) noexcept {
   }
   if (text[length - 1] == '.')
     text[length++] = '0';
-  if (!digits || line.text[i] == '.')
+  if (!digits || line.text[i] == '.' || hasExponent(line, token.at, i))
     return bad(token, Error::BadNumber);
   const text::Scanned scanned = text::scanReal(text, static_cast<uint32_t>(length));
   if (scanned.used != static_cast<uint32_t>(length))

@@ -102,6 +102,24 @@ TEST(Scanner, ErrorsWithTheirPlace) {
               ElementsAre(Pair(GCodeError::BadVariable, 0)));
 }
 
+/// As other programs write small numbers: two words of a path would be made of each.
+TEST(Scanner, RefusesExponents) {
+  using testing::ElementsAre;
+  using testing::Pair;
+  for (const char *text : {"G1 X1e-05", "G1 X1E-05", "g1 x1e+00", "G1 X2e-012", "G1 X1.5e-16",
+                           "g1 x1.2246467991e-16", "G1 X1.2246467991E+16", "G1 X-.5E-07Y1"}) {
+    const size_t at = std::string(text).find_first_of("eE");
+    EXPECT_THAT(errors(text), ElementsAre(Pair(GCodeError::Exponent, at))) << text;
+  }
+  EXPECT_THAT(errors("G1 X1e-05\nY2e-05 Z7"),
+              ElementsAre(Pair(GCodeError::Exponent, 5), Pair(GCodeError::Exponent, 12)));
+  // Words E, also without blanks between words, and after another number than that of the line.
+  for (const char *text : {"G1 X1 E-05", "G1X10E100E-100", "g1x10e-10", "G1X1.2E-10", "G1X1E-5",
+                           "G1X1E05", "G1X1E-0500", "G1X1E-05.5", "X12345678901\nE-10", "X$a$E-05",
+                           "G1 X1.23456789 e-12", "G1(X1)E-05", "g1 x1.234567891E100"})
+    EXPECT_TRUE(errors(text).empty()) << text;
+}
+
 TEST(Scanner, EveryWordHasLettersOfItsOwn) {
   int known = 0;
   for (int code = 0; code < 256; ++code) {

@@ -75,12 +75,21 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"X sin 'a'", Error::ArgumentType, 6}, Bad{"X 1 + 'a'", Error::ArgumentType, 4},
         Bad{"X TRUE", Error::BadType, 2}, Bad{"X #none", Error::NoLocal, 2},
         Bad{"X $none$", Error::NoVariable, 2}, Bad{"X $none", Error::UnexpectedEnd, 7},
-        Bad{"X 1..2", Error::BadNumber, 2}, Bad{"X 1 = 1", Error::BadType, 2},
+        Bad{"X 1..2", Error::BadNumber, 2}, Bad{"X1e-05", Error::BadNumber, 1},
+        Bad{"X{2 * 1E+02}", Error::BadNumber, 6}, Bad{"X1e-12", Error::BadNumber, 1},
+        Bad{"X -1.22464679e-16", Error::BadNumber, 3}, Bad{"X 1 = 1", Error::BadType, 2},
         Bad{"X 1 / 0", Error::DivisionByZero, 0}, Bad{"X 1 MOD 0", Error::DivisionByZero, 0},
         Bad{"X ln -1", Error::NotANumber, 0}, Bad{"X expt{10, 400}", Error::NotANumber, 0},
         Bad{"X ?", Error::TermExpected, 2}, Bad{"X ~", Error::UnknownToken, 2},
         Bad{"SEL{1}", Error::ReservedWord, 0}, Bad{"X", Error::MissingValue, 1},
         Bad{"XY5", Error::UnknownWord, 0}, Bad{"G1 5", Error::AddressExpected, 3}));
+
+/// A word E may stand right after a number.
+TEST(NcExpression, TellsWordsFromExponents) {
+  for (const char *text : {"N1 G1 X1E-50 F10", "n1 g1 x1e-50 f10", "N1 G1 X1 e-05 F10",
+                           "N1 G1 X1E-5F10", "N1 G1 X1E100E-100 F10"})
+    EXPECT_TRUE(runText(text).finished) << text;
+}
 
 TEST(NcExpression, RefusesBracketsThatAreTooDeep) {
   const std::string deep(60, '{');
