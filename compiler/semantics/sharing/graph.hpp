@@ -65,6 +65,14 @@ struct NodeView {
   const std::set<uint32_t> *tasks = nullptr; ///< null: all
 };
 
+/// An output as the program names it.
+struct WrittenOutput {
+  Location at;
+  uint64_t bytes = 1;
+  bool isNumber = false; ///< nobody looks at its bits
+  bool operator<(const WrittenOutput &other) const;
+};
+
 class SharingGraph {
 public:
   SharingGraph(Program &program, const std::vector<TaskEntry> &tasks);
@@ -115,6 +123,13 @@ private:
   void reportBits(const Path &path, const std::pair<const uint32_t, Span> &first,
                   const std::pair<const uint32_t, Span> &second);
   void reportOutputs();
+
+  // overlaps.cpp
+  void noteOutput(uint32_t task, const Location &at, const ImageAccess &access);
+  void reportOverlaps() const;
+  void reportOverlap(const std::pair<const WrittenOutput, Span> &one,
+                     const std::pair<const WrittenOutput, Span> &other) const;
+
   void reportConsistentWriters(const VarSymbol *v, const Use &first, const Use &second);
   void helpConsistent(Diagnostic &d, const Path &path, Span read) const;
   void declaredAt(Diagnostic &d, const Path &path) const;
@@ -145,8 +160,9 @@ private:
     std::vector<bool> write;
     std::map<uint32_t, Span> writeAt; ///< by first byte: where
   };
-  std::vector<std::array<Bytes, 3>> image_;          ///< by task, area
-  std::map<std::vector<uint64_t>, unsigned> visits_; ///< of visit(): what it was given
+  std::vector<std::array<Bytes, 3>> image_;            ///< by task, area
+  std::vector<std::map<WrittenOutput, Span>> outputs_; ///< by task: where each is written first
+  std::map<std::vector<uint64_t>, unsigned> visits_;   ///< of visit(): what it was given
 };
 
 } // namespace stc

@@ -163,7 +163,8 @@ const VarSymbol *PlaceNode::variable() const {
 // who calls whom
 
 SharingGraph::SharingGraph(Program &program, const std::vector<TaskEntry> &tasks)
-    : program_(program), tasks_(tasks), reached_(tasks.size()), image_(tasks.size()) {
+    : program_(program), tasks_(tasks), reached_(tasks.size()), image_(tasks.size()),
+      outputs_(tasks.size()) {
   std::vector<const VarSymbol *> variables;
   const auto addVariables = [&](const PouSymbol *pou) {
     variables.insert(variables.end(), pou->variables.begin(), pou->variables.end());
@@ -381,21 +382,24 @@ void SharingGraph::solve() {
 // the process image
 
 void SharingGraph::useImage(uint32_t task, const ImageAccess &access) {
-  const auto mark = [&](Area area, uint64_t first) {
-    Bytes &bytes = image_[task][static_cast<size_t>(area)];
+  const auto mark = [&](const Location &at) {
+    const uint64_t first = at.byte;
+    Bytes &bytes = image_[task][static_cast<size_t>(at.area)];
     std::vector<bool> &used = access.writes ? bytes.write : bytes.read;
     for (uint64_t i = first; i < first + access.bytes && i < used.size(); ++i)
       used[i] = true;
-    if (access.writes)
-      bytes.writeAt.try_emplace(static_cast<uint32_t>(first), access.span);
+    if (!access.writes)
+      return;
+    bytes.writeAt.try_emplace(at.byte, access.span);
+    noteOutput(task, at, access);
   };
   if (access.slot == nullptr) {
-    mark(access.at->area, access.at->byte);
+    mark(*access.at);
     return;
   }
   for (const SlotPlace &slot : program_.slotPlaces) {
     if (slot.variable == access.slot && slot.placed)
-      mark(slot.at.area, slot.at.byte);
+      mark(slot.at);
   }
 }
 
@@ -466,6 +470,7 @@ void SharingGraph::concludeAddresses() {
 
 void SharingGraph::conclude() {
   concludeImage();
+  reportOverlaps();
   concludeWriters();
   if (tasks_.size() < 2)
     return;

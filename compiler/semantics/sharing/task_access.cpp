@@ -177,6 +177,8 @@ void image(Reader &r, const Expr *e, bool writes) {
       ImageAccess access{at, at->isSlot ? locatedVariable(e) : nullptr, 1, writes, e->span};
       if (at->bit < 0)
         access.bytes = r.storage.of(e->type).size;
+      const Type *type = underlying(e->type);
+      access.isNumber = isReal(type) || isSignedInteger(type);
       r.out.image.push_back(access);
       return;
     }

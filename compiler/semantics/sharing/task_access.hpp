@@ -74,6 +74,7 @@ struct ImageAccess {
   uint64_t bytes = 1;
   bool writes = false;
   Span span;
+  bool isNumber = false; ///< signed or real: its bits mean nothing by themselves
 };
 
 /// A call of a library's block with an axis.
