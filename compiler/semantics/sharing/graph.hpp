@@ -91,11 +91,19 @@ private:
   /// Those of them that have not been read, by several threads.
   void readBodies(std::span<const PouSymbol *const> pous);
   void reach(uint32_t task);
+  /// What runs before the tasks, and between them in an online change: FB_Init and the like.
+  void reachBefore();
+  /// Adds what the POUs call.
+  void closeOver(std::vector<const PouSymbol *> &all);
   [[nodiscard]] std::vector<const PouSymbol *> implementations(const CallEdge &call) const;
+  /// Which variables' initial values and arguments for FB_Init concern a task.
+  void findNamed();
+  [[nodiscard]] bool concerns(uint32_t task, const AddressFlow &flow) const;
   bool flowOnce(uint32_t task, const PouAccess &access);
   [[nodiscard]] std::pair<const VarSymbol *, uint32_t> key(const VarSymbol *v, uint32_t task) const;
   Nodes nodesAt(const PlacePath &place, uint32_t task);
   PlaceNode &rootNode(const Symbol *symbol);
+  PlaceNode &madeNode(const ast::CallExpr *call, uint32_t task);
   void useRoot(const PlaceAccess &access);
   void useImage(uint32_t task, const ImageAccess &access);
   void concludeImage();
@@ -142,9 +150,15 @@ private:
   std::unordered_map<const PouSymbol *, PouAccess> read_;
   PouAccess initial_;
   std::vector<std::vector<const PouSymbol *>> reached_; ///< by task
-  std::vector<PouSymbol *> blocks_;                     ///< all of the program
+  /// By task: the blocks whose code runs, and the global variables that it names or anybody's
+  /// address may lead to.
+  std::vector<std::unordered_set<const Symbol *>> named_;
+  std::vector<const PouSymbol *> before_; ///< before the tasks: the addresses that it keeps count
+  std::vector<PouSymbol *> blocks_;       ///< all of the program
   std::unordered_map<const Symbol *, std::unique_ptr<PlaceNode>> roots_;
   std::vector<const Symbol *> rootOrder_;
+  /// Objects of __NEW, by the place of the call and the task that makes them.
+  std::map<std::tuple<FileId, uint32_t, uint32_t>, std::unique_ptr<PlaceNode>> made_;
   /// What the bodies of blocks and programs do to their own variables, for all instances.
   std::unordered_map<const Symbol *, std::unique_ptr<PlaceNode>> own_;
   std::map<std::pair<const VarSymbol *, uint32_t>, Nodes, DeclaredFirst> leads_;

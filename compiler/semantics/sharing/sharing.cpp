@@ -215,44 +215,6 @@ void SharingGraph::readBodies(std::span<const PouSymbol *const> pous) {
   });
 }
 
-std::vector<const PouSymbol *> SharingGraph::implementations(const CallEdge &call) const {
-  std::vector<const PouSymbol *> result{call.pou};
-  const PouSymbol *block = blockOf(call.pou);
-  if (!call.open || (!block->isInterface() && !block->extended))
-    return result;
-  for (const PouSymbol *other : blocks_) {
-    if (other == block || !convertsTo(other, block))
-      continue;
-    const PouSymbol *own = call.pou == block
-                               ? (other->decl->kind == DeclKind::FunctionBlock ? other : nullptr)
-                               : implementation(other, call.pou);
-    if (own != nullptr && std::find(result.begin(), result.end(), own) == result.end())
-      result.push_back(own);
-  }
-  return result;
-}
-
-void SharingGraph::reach(uint32_t task) {
-  std::vector<const PouSymbol *> &all = reached_[task];
-  std::unordered_set<const PouSymbol *> known;
-  const auto add = [&](const PouSymbol *pou) {
-    if (known.insert(pou).second)
-      all.push_back(pou);
-  };
-  for (const PouSymbol *pou : tasks_[task].pous)
-    add(pou);
-  for (size_t begin = 0; begin < all.size();) {
-    const size_t end = all.size();
-    readBodies(std::span(all).subspan(begin));
-    for (; begin < end; ++begin) {
-      for (const CallEdge &call : accessOf(all[begin]).calls) {
-        for (const PouSymbol *pou : implementations(call))
-          add(pou);
-      }
-    }
-  }
-}
-
 // ----------------------------------------------------------------------------------------------------
 // where addresses lead
 
@@ -275,6 +237,15 @@ PlaceNode &SharingGraph::rootNode(const Symbol *symbol) {
     } else {
       node->type = static_cast<const PouSymbol *>(symbol)->type;
     }
+  }
+  return *node;
+}
+
+PlaceNode &SharingGraph::madeNode(const CallExpr *call, uint32_t task) {
+  std::unique_ptr<PlaceNode> &node = made_[{call->span.file, call->span.begin, task}];
+  if (node == nullptr) {
+    node = std::make_unique<PlaceNode>();
+    node->type = memberType(typeAs<PointerType>(call->type)->pointee);
   }
   return *node;
 }
@@ -306,6 +277,9 @@ SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, uint32_t task)
     nodes = found->second;
     break;
   }
+  case PlacePath::Base::Made:
+    nodes.insert(&madeNode(place.made, task));
+    break;
   }
   for (const AccessStep &step : place.steps) {
     Nodes next;
@@ -319,6 +293,8 @@ SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, uint32_t task)
 bool SharingGraph::flowOnce(uint32_t task, const PouAccess &access) {
   bool changed = false;
   for (const AddressFlow &flow : access.flows) {
+    if (!concerns(task, flow))
+      continue;
     Nodes from;
     if (flow.from != nullptr) {
       const auto found = leads_.find(key(flow.from, task));
@@ -346,12 +322,16 @@ void SharingGraph::solve() {
   for (uint32_t task = 0; task < count; ++task)
     reach(task);
   if (count > 1) {
+    reachBefore();
+    findNamed();
     constexpr int kRounds = 100; // chains of pointers are not longer
     bool changed = true;
     for (int round = 0; changed && round < kRounds; ++round) {
       changed = false;
       for (uint32_t task = 0; task < count; ++task) {
         changed = flowOnce(task, initial_) || changed;
+        for (const PouSymbol *pou : before_)
+          changed = flowOnce(task, accessOf(pou)) || changed;
         for (const PouSymbol *pou : reached_[task])
           changed = flowOnce(task, accessOf(pou)) || changed;
       }
@@ -468,6 +448,15 @@ void SharingGraph::concludeAddresses() {
   }
 }
 
+/// What an object of __NEW is declared as; null: a number or text, which no member leads to.
+static const Symbol *symbolOfType(const Type *type) {
+  while (type->kind == TypeKind::Array)
+    type = typeAs<ArrayType>(type)->element;
+  if (isInstance(type))
+    return typeAs<PouType>(type)->symbol;
+  return type->kind == TypeKind::Structure ? typeAs<StructType>(type)->symbol : nullptr;
+}
+
 void SharingGraph::conclude() {
   concludeImage();
   reportOverlaps();
@@ -478,6 +467,10 @@ void SharingGraph::conclude() {
   for (const Symbol *symbol : rootOrder_)
     visit({{roots_.at(symbol).get(), nullptr}}, {std::string(symbol->name.text), symbol}, {},
           false);
+  for (const auto &[place, node] : made_)
+    if (const Symbol *type = symbolOfType(node->type); type != nullptr)
+      visit({{node.get(), nullptr}}, {"__NEW(" + std::string(type->name.text) + ")", type}, {},
+            false);
   concludeAddresses();
   reportOutputs();
 }
