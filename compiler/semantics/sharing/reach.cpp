@@ -80,10 +80,23 @@ void SharingGraph::findNamed() {
         named.insert(block);
       const PouAccess &access = accessOf(pou);
       takeAddresses(access);
-      for (const PlaceAccess &a : access.accesses)
-        named.insert(a.place.symbol);
-      for (const AddressFlow &flow : access.flows)
-        named.insert({flow.place.symbol, flow.from, flow.target});
+      const auto name = [&](const Symbol *symbol) {
+        named.insert(symbol);
+        if (symbol == nullptr || symbol->kind != SymbolKind::Variable)
+          return;
+        if (const PouSymbol *owner = static_cast<const VarSymbol *>(symbol)->owner)
+          named.insert(blockOf(owner)); // a member that is used from outside
+      };
+      for (const PlaceAccess &a : access.accesses) {
+        name(a.place.symbol);
+        for (const AccessStep &step : a.place.steps)
+          name(step.member);
+      }
+      for (const AddressFlow &flow : access.flows) {
+        name(flow.place.symbol);
+        name(flow.from);
+        name(flow.target);
+      }
     }
   }
   for (std::unordered_set<const Symbol *> &named : named_)
