@@ -83,8 +83,10 @@ Expr *AstBuilder::structAggregate(Context *inside, Span whole) {
     const Token *plain = plainName(front);
     if (plain == nullptr || token(last(front) + 1).type != Tok::ASSIGN ||
         argument->children.size() < 2) {
-      diagnostics_.report(Code::ArgumentName, span(argument),
-                          "expected `name := value` in the list of fields");
+      Diagnostic &d = diagnostics_.report(Code::ArgumentName, span(argument),
+                                          "expected `name := value` in the list of fields");
+      if (inside->children.size() == 1)
+        d.help("an assignment is a statement of its own; to compare, write `=`");
       return error(whole);
     }
     AggregateItem field;

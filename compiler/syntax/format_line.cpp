@@ -180,10 +180,11 @@ private:
     case Tok::COMMA:
     case Tok::RPAREN:
     case Tok::RBRACKET:
-    case Tok::DOT:
     case Tok::DOTDOT:
     case Tok::CARET:
       return false;
+    case Tok::DOT: // `2 .5` is no number, and must not become one
+      return before.type == Tok::INTEGER;
     case Tok::COLON:
       return before.comment || (request_.kind != LineKind::Label && request_.from < i &&
                                 items_[request_.from].type != Tok::ACTION);

@@ -92,6 +92,25 @@ bool ReportStrategy::startsDeclaration(const Token &token) {
   return next == Tok::COLON || next == Tok::COMMA || next == Tok::AT;
 }
 
+/// From a STRUCT that stands where a type is wanted over its END_STRUCT: its fields are no
+/// variables.
+void ReportStrategy::skipBodyOfType() {
+  const auto opens = [](uint16_t type) { return type == Tok::STRUCT || type == Tok::UNION; };
+  const auto closes = [](uint16_t type) {
+    return type == Tok::END_STRUCT || type == Tok::END_UNION;
+  };
+  if (!opens(current().type))
+    return;
+  for (int depth = 0; !isEnd(current().type) && current().type != Tok::END_VAR &&
+                      current().type != Tok::END_TYPE;) {
+    depth += opens(current().type) ? 1 : 0;
+    depth -= closes(current().type) ? 1 : 0;
+    parser_.stream().advance();
+    if (depth == 0)
+      return;
+  }
+}
+
 void ReportStrategy::recover(antlr4::Parser *, std::exception_ptr error) {
   UnitStream &stream = parser_.stream();
   switch (parser_.context()->getRuleIndex()) {
@@ -117,6 +136,7 @@ void ReportStrategy::recover(antlr4::Parser *, std::exception_ptr error) {
   case Grammar::RuleConfigVariable:
   case Grammar::RuleAccessVariable:
   case Grammar::RuleTypeDeclaration:
+    skipBodyOfType();
     while (!endsDeclaration(current().type) && !startsDeclaration(current()))
       stream.advance();
     if (parser_.context()->getRuleIndex() == Grammar::RuleTypeDeclaration &&

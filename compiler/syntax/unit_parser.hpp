@@ -79,6 +79,7 @@ private:
 
   // report_strategy.cpp: going on at the next statement or declaration
   void skipStatement();
+  void skipBodyOfType();
   void skipTo(bool (*stop)(uint16_t));
   bool startsDeclaration(const Token &token);
   void syncStatements();

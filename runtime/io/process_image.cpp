@@ -157,10 +157,12 @@ void ImageHook::beforePous(Ctx &ctx) {
     const IoDeviceDesc &desc = app_->ioDevices[part.device->index];
     BYTE *to = image(part);
     const bool lost = part.device->lost.load(std::memory_order_relaxed);
-    // Safe values of a loss are nobody's.
-    if (!part.safe)
+    // Safe values of a loss are nobody's. Where several tasks have a byte, the leading one, which
+    // notices the loss, is the first to put them there.
+    const bool becomesSafe = lost && desc.safeInputs != nullptr;
+    if (!part.safe && (leads_ || !becomesSafe))
       part.device->driver->sense(part.deviceByte, {to, part.count});
-    part.safe = lost && desc.safeInputs != nullptr;
+    part.safe = becomesSafe;
     if (!lost) {
       if (read(part))
         copyWhole(to, buffer_.data(), part.count);
@@ -224,6 +226,9 @@ void ImageHook::rebind(const StrideAppV1 &app, std::byte *state) noexcept {
   app_ = &app;
   state_ = state;
   parts_.swap(nextParts_);
+  for (Part &part : parts_) // what the image took over of a lost device is nobody's, either
+    part.safe = !part.output && part.device->lost.load(std::memory_order_relaxed) &&
+                app.ioDevices[part.device->index].safeInputs != nullptr;
 }
 
 std::vector<std::string> ImageHook::takeNews() {

@@ -19,6 +19,7 @@ struct Reported {
   std::set<uint64_t> names; ///< places of USING and INTERNAL names
   std::set<std::pair<const PouSymbol *, Ident>> unknown;
   std::set<std::pair<FileId, Ident>> spaces; ///< unknown libraries and namespaces, by file
+  std::set<std::pair<FileId, Ident>> types;  ///< unknown types, by file
   size_t namesLookedAt = 0;                  ///< for names that are similar to unknown ones
 };
 

@@ -29,6 +29,23 @@ std::optional<int64_t> constantInteger(Context &c, Expr *expr, std::string_view 
   return expr->constant->integer;
 }
 
+/// What is in brackets is no value: a list, or an assignment.
+static void reportAggregate(Context &c, const AggregateExpr *expr, const Type *expected) {
+  const bool hasFields =
+      expected != nullptr && (expected->kind == TypeKind::Structure || isInstance(expected));
+  if (expr->items.empty())
+    c.report(Code::UnexpectedToken, expr->span, "expected an expression between the parentheses");
+  else if (expr->isStruct && expr->items.size() == 1 && !hasFields)
+    c.report(Code::AssignInCondition, expr->span,
+             "`:=` assigns: an assignment is no part of an expression", "this has no value here")
+        .help("write `=` to compare, or assign in a statement of its own before and use `" +
+              std::string(expr->items.front().field.text) + "` here");
+  else
+    c.report(Code::AggregateNotAllowed, expr->span, "a list of values can only be an initial value",
+             "not an expression")
+        .help("assign the elements one by one");
+}
+
 const Type *check(Context &c, Expr *expr, const Type *expected) {
   if (expected != nullptr && expected->kind == TypeKind::Subrange)
     expected = typeAs<SubrangeType>(expected)->base;
@@ -69,12 +86,7 @@ const Type *check(Context &c, Expr *expr, const Type *expected) {
     type = checkEnumLiteral(c, as<EnumLiteralExpr>(expr));
     break;
   case ExprKind::Aggregate:
-    if (as<AggregateExpr>(expr)->items.empty())
-      c.report(Code::UnexpectedToken, expr->span, "expected an expression between the parentheses");
-    else
-      c.report(Code::AggregateNotAllowed, expr->span,
-               "a list of values can only be an initial value", "not an expression")
-          .help("assign the elements one by one");
+    reportAggregate(c, as<AggregateExpr>(expr), expected);
     break;
   case ExprKind::Direct:
     type = checkDirect(c, as<DirectExpr>(expr));

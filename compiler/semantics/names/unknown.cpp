@@ -222,7 +222,10 @@ static std::string qualifiedOnlyLibrary(Context &c, const Name &name) {
 
 void reportUnknown(Context &c, const Name &name, Sought sought) {
   const bool asType = sought == Sought::Type;
-  if (!asType) {
+  if (asType) { // one missing type is one mistake in a file
+    if (!c.reported.types.emplace(name.span.file, name.id).second)
+      return;
+  } else {
     if (!c.reported.unknown.emplace(c.scope.pou, name.id).second)
       return; // one missing declaration is one mistake
     if (!c.reporter.keepsErrors())

@@ -65,6 +65,14 @@ struct NodeView {
   const std::set<uint32_t> *tasks = nullptr; ///< null: all
 };
 
+/// An output as the program names it.
+struct WrittenOutput {
+  Location at;
+  uint64_t bytes = 1;
+  bool isNumber = false; ///< nobody looks at its bits
+  bool operator<(const WrittenOutput &other) const;
+};
+
 class SharingGraph {
 public:
   SharingGraph(Program &program, const std::vector<TaskEntry> &tasks);
@@ -83,11 +91,19 @@ private:
   /// Those of them that have not been read, by several threads.
   void readBodies(std::span<const PouSymbol *const> pous);
   void reach(uint32_t task);
+  /// What runs before the tasks, and between them in an online change: FB_Init and the like.
+  void reachBefore();
+  /// Adds what the POUs call.
+  void closeOver(std::vector<const PouSymbol *> &all);
   [[nodiscard]] std::vector<const PouSymbol *> implementations(const CallEdge &call) const;
+  /// Which variables' initial values and arguments for FB_Init concern a task.
+  void findNamed();
+  [[nodiscard]] bool concerns(uint32_t task, const AddressFlow &flow) const;
   bool flowOnce(uint32_t task, const PouAccess &access);
   [[nodiscard]] std::pair<const VarSymbol *, uint32_t> key(const VarSymbol *v, uint32_t task) const;
   Nodes nodesAt(const PlacePath &place, uint32_t task);
   PlaceNode &rootNode(const Symbol *symbol);
+  PlaceNode &madeNode(const ast::CallExpr *call, uint32_t task);
   void useRoot(const PlaceAccess &access);
   void useImage(uint32_t task, const ImageAccess &access);
   void concludeImage();
@@ -115,6 +131,13 @@ private:
   void reportBits(const Path &path, const std::pair<const uint32_t, Span> &first,
                   const std::pair<const uint32_t, Span> &second);
   void reportOutputs();
+
+  // overlaps.cpp
+  void noteOutput(uint32_t task, const Location &at, const ImageAccess &access);
+  void reportOverlaps() const;
+  void reportOverlap(const std::pair<const WrittenOutput, Span> &one,
+                     const std::pair<const WrittenOutput, Span> &other) const;
+
   void reportConsistentWriters(const VarSymbol *v, const Use &first, const Use &second);
   void helpConsistent(Diagnostic &d, const Path &path, Span read) const;
   void declaredAt(Diagnostic &d, const Path &path) const;
@@ -127,9 +150,15 @@ private:
   std::unordered_map<const PouSymbol *, PouAccess> read_;
   PouAccess initial_;
   std::vector<std::vector<const PouSymbol *>> reached_; ///< by task
-  std::vector<PouSymbol *> blocks_;                     ///< all of the program
+  /// By task: the blocks whose code runs, and the global variables that it names or anybody's
+  /// address may lead to.
+  std::vector<std::unordered_set<const Symbol *>> named_;
+  std::vector<const PouSymbol *> before_; ///< before the tasks: the addresses that it keeps count
+  std::vector<PouSymbol *> blocks_;       ///< all of the program
   std::unordered_map<const Symbol *, std::unique_ptr<PlaceNode>> roots_;
   std::vector<const Symbol *> rootOrder_;
+  /// Objects of __NEW, by the place of the call and the task that makes them.
+  std::map<std::tuple<FileId, uint32_t, uint32_t>, std::unique_ptr<PlaceNode>> made_;
   /// What the bodies of blocks and programs do to their own variables, for all instances.
   std::unordered_map<const Symbol *, std::unique_ptr<PlaceNode>> own_;
   std::map<std::pair<const VarSymbol *, uint32_t>, Nodes, DeclaredFirst> leads_;
@@ -145,8 +174,9 @@ private:
     std::vector<bool> write;
     std::map<uint32_t, Span> writeAt; ///< by first byte: where
   };
-  std::vector<std::array<Bytes, 3>> image_;          ///< by task, area
-  std::map<std::vector<uint64_t>, unsigned> visits_; ///< of visit(): what it was given
+  std::vector<std::array<Bytes, 3>> image_;            ///< by task, area
+  std::vector<std::map<WrittenOutput, Span>> outputs_; ///< by task: where each is written first
+  std::map<std::vector<uint64_t>, unsigned> visits_;   ///< of visit(): what it was given
 };
 
 } // namespace stc

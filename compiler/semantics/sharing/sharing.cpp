@@ -163,7 +163,8 @@ const VarSymbol *PlaceNode::variable() const {
 // who calls whom
 
 SharingGraph::SharingGraph(Program &program, const std::vector<TaskEntry> &tasks)
-    : program_(program), tasks_(tasks), reached_(tasks.size()), image_(tasks.size()) {
+    : program_(program), tasks_(tasks), reached_(tasks.size()), image_(tasks.size()),
+      outputs_(tasks.size()) {
   std::vector<const VarSymbol *> variables;
   const auto addVariables = [&](const PouSymbol *pou) {
     variables.insert(variables.end(), pou->variables.begin(), pou->variables.end());
@@ -214,44 +215,6 @@ void SharingGraph::readBodies(std::span<const PouSymbol *const> pous) {
   });
 }
 
-std::vector<const PouSymbol *> SharingGraph::implementations(const CallEdge &call) const {
-  std::vector<const PouSymbol *> result{call.pou};
-  const PouSymbol *block = blockOf(call.pou);
-  if (!call.open || (!block->isInterface() && !block->extended))
-    return result;
-  for (const PouSymbol *other : blocks_) {
-    if (other == block || !convertsTo(other, block))
-      continue;
-    const PouSymbol *own = call.pou == block
-                               ? (other->decl->kind == DeclKind::FunctionBlock ? other : nullptr)
-                               : implementation(other, call.pou);
-    if (own != nullptr && std::find(result.begin(), result.end(), own) == result.end())
-      result.push_back(own);
-  }
-  return result;
-}
-
-void SharingGraph::reach(uint32_t task) {
-  std::vector<const PouSymbol *> &all = reached_[task];
-  std::unordered_set<const PouSymbol *> known;
-  const auto add = [&](const PouSymbol *pou) {
-    if (known.insert(pou).second)
-      all.push_back(pou);
-  };
-  for (const PouSymbol *pou : tasks_[task].pous)
-    add(pou);
-  for (size_t begin = 0; begin < all.size();) {
-    const size_t end = all.size();
-    readBodies(std::span(all).subspan(begin));
-    for (; begin < end; ++begin) {
-      for (const CallEdge &call : accessOf(all[begin]).calls) {
-        for (const PouSymbol *pou : implementations(call))
-          add(pou);
-      }
-    }
-  }
-}
-
 // ----------------------------------------------------------------------------------------------------
 // where addresses lead
 
@@ -274,6 +237,15 @@ PlaceNode &SharingGraph::rootNode(const Symbol *symbol) {
     } else {
       node->type = static_cast<const PouSymbol *>(symbol)->type;
     }
+  }
+  return *node;
+}
+
+PlaceNode &SharingGraph::madeNode(const CallExpr *call, uint32_t task) {
+  std::unique_ptr<PlaceNode> &node = made_[{call->span.file, call->span.begin, task}];
+  if (node == nullptr) {
+    node = std::make_unique<PlaceNode>();
+    node->type = memberType(typeAs<PointerType>(call->type)->pointee);
   }
   return *node;
 }
@@ -305,6 +277,9 @@ SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, uint32_t task)
     nodes = found->second;
     break;
   }
+  case PlacePath::Base::Made:
+    nodes.insert(&madeNode(place.made, task));
+    break;
   }
   for (const AccessStep &step : place.steps) {
     Nodes next;
@@ -318,6 +293,8 @@ SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, uint32_t task)
 bool SharingGraph::flowOnce(uint32_t task, const PouAccess &access) {
   bool changed = false;
   for (const AddressFlow &flow : access.flows) {
+    if (!concerns(task, flow))
+      continue;
     Nodes from;
     if (flow.from != nullptr) {
       const auto found = leads_.find(key(flow.from, task));
@@ -345,12 +322,16 @@ void SharingGraph::solve() {
   for (uint32_t task = 0; task < count; ++task)
     reach(task);
   if (count > 1) {
+    reachBefore();
+    findNamed();
     constexpr int kRounds = 100; // chains of pointers are not longer
     bool changed = true;
     for (int round = 0; changed && round < kRounds; ++round) {
       changed = false;
       for (uint32_t task = 0; task < count; ++task) {
         changed = flowOnce(task, initial_) || changed;
+        for (const PouSymbol *pou : before_)
+          changed = flowOnce(task, accessOf(pou)) || changed;
         for (const PouSymbol *pou : reached_[task])
           changed = flowOnce(task, accessOf(pou)) || changed;
       }
@@ -381,21 +362,24 @@ void SharingGraph::solve() {
 // the process image
 
 void SharingGraph::useImage(uint32_t task, const ImageAccess &access) {
-  const auto mark = [&](Area area, uint64_t first) {
-    Bytes &bytes = image_[task][static_cast<size_t>(area)];
+  const auto mark = [&](const Location &at) {
+    const uint64_t first = at.byte;
+    Bytes &bytes = image_[task][static_cast<size_t>(at.area)];
     std::vector<bool> &used = access.writes ? bytes.write : bytes.read;
     for (uint64_t i = first; i < first + access.bytes && i < used.size(); ++i)
       used[i] = true;
-    if (access.writes)
-      bytes.writeAt.try_emplace(static_cast<uint32_t>(first), access.span);
+    if (!access.writes)
+      return;
+    bytes.writeAt.try_emplace(at.byte, access.span);
+    noteOutput(task, at, access);
   };
   if (access.slot == nullptr) {
-    mark(access.at->area, access.at->byte);
+    mark(*access.at);
     return;
   }
   for (const SlotPlace &slot : program_.slotPlaces) {
     if (slot.variable == access.slot && slot.placed)
-      mark(slot.at.area, slot.at.byte);
+      mark(slot.at);
   }
 }
 
@@ -464,8 +448,18 @@ void SharingGraph::concludeAddresses() {
   }
 }
 
+/// What an object of __NEW is declared as; null: a number or text, which no member leads to.
+static const Symbol *symbolOfType(const Type *type) {
+  while (type->kind == TypeKind::Array)
+    type = typeAs<ArrayType>(type)->element;
+  if (isInstance(type))
+    return typeAs<PouType>(type)->symbol;
+  return type->kind == TypeKind::Structure ? typeAs<StructType>(type)->symbol : nullptr;
+}
+
 void SharingGraph::conclude() {
   concludeImage();
+  reportOverlaps();
   concludeWriters();
   if (tasks_.size() < 2)
     return;
@@ -473,6 +467,10 @@ void SharingGraph::conclude() {
   for (const Symbol *symbol : rootOrder_)
     visit({{roots_.at(symbol).get(), nullptr}}, {std::string(symbol->name.text), symbol}, {},
           false);
+  for (const auto &[place, node] : made_)
+    if (const Symbol *type = symbolOfType(node->type); type != nullptr)
+      visit({{node.get(), nullptr}}, {"__NEW(" + std::string(type->name.text) + ")", type}, {},
+            false);
   concludeAddresses();
   reportOutputs();
 }

@@ -34,7 +34,7 @@ const Expr *namedGlobal(const Expr *e) {
 
 } // namespace
 
-static void initialValue(Reader &r, const VarSymbol *variable, const Expr *init) {
+void initialValue(Reader &r, const VarSymbol *variable, const Expr *init) {
   if (init->kind == ExprKind::Aggregate) {
     for (const AggregateItem &item : as<AggregateExpr>(init)->items) {
       const VarSymbol *to = item.symbol != nullptr ? item.symbol : variable;
@@ -53,6 +53,37 @@ static void initialValue(Reader &r, const VarSymbol *variable, const Expr *init)
     flowPlace(r, variable, init);
   else
     flow(r, variable, init);
+}
+
+/// What the declaration of an instance gives to its FB_Init.
+static void construction(Reader &r, const TypeExpr *type) {
+  while (type != nullptr && type->kind == TypeExprKind::Array)
+    type = as<ArrayTypeExpr>(type)->element;
+  if (type == nullptr || type->kind != TypeExprKind::Named)
+    return;
+  const auto give = [&](std::span<const Argument> arguments) {
+    for (const Argument &a : arguments)
+      if (a.parameter != nullptr && a.parameter->type != nullptr && a.value != nullptr)
+        initialValue(r, a.parameter, a.value);
+  };
+  const auto *named = as<NamedTypeExpr>(type);
+  give(named->arguments);
+  for (const std::span<Argument> element : named->elements)
+    give(element);
+}
+
+/// The FB_Init of the base gets what the one of the block gets, by name.
+static void constructionOfBase(Reader &r, const VarSymbol *input) {
+  const PouSymbol *init = input->owner;
+  if (init == nullptr || init->owner == nullptr || init->owner->base == nullptr ||
+      input->section != Section::Input || init->name.id->lower != "fb_init")
+    return;
+  const PouSymbol *base = findInit(init->owner->base);
+  if (base == nullptr)
+    return;
+  for (const VarSymbol *own : base->variables)
+    if (own->section == Section::Input && own->name.id == input->name.id)
+      r.out.flows.push_back({own, {}, input});
 }
 
 static void block(Reader &r, Block block) {
@@ -177,6 +208,8 @@ void image(Reader &r, const Expr *e, bool writes) {
       ImageAccess access{at, at->isSlot ? locatedVariable(e) : nullptr, 1, writes, e->span};
       if (at->bit < 0)
         access.bytes = r.storage.of(e->type).size;
+      const Type *type = underlying(e->type);
+      access.isNumber = isReal(type) || isSignedInteger(type);
       r.out.image.push_back(access);
       return;
     }
@@ -343,6 +376,11 @@ void flow(Reader &r, const VarSymbol *to, const Expr *e) {
       flowPlace(r, to, at);
       return;
     }
+    if (builtinRow(c->builtin).takes.what == BuiltinTakes::Name && // __NEW
+        c->type->kind == TypeKind::Pointer) {
+      r.out.flows.push_back({to, {PlacePath::Base::Made, nullptr, {}, c}, nullptr});
+      return;
+    }
     for (const Argument &a : c->arguments)
       flow(r, to, a.value);
     return;
@@ -386,8 +424,15 @@ PouAccess readAccess(Storage &storage, const PouSymbol *pou, AccessDetail detail
 PouAccess readInitial(Storage &storage, const std::vector<const VarSymbol *> &variables) {
   access::Reader reader{storage, {}};
   for (const VarSymbol *v : variables) {
-    if (v->decl != nullptr && v->decl->init != nullptr && v->type != nullptr)
+    if (v->decl == nullptr || v->type == nullptr)
+      continue;
+    const size_t first = reader.out.flows.size();
+    if (v->decl->init != nullptr)
       access::initialValue(reader, v, v->decl->init);
+    access::construction(reader, v->decl->type);
+    for (AddressFlow &flow : std::span(reader.out.flows).subspan(first))
+      flow.declared = v->owner != nullptr ? static_cast<const Symbol *>(blockOf(v->owner)) : v;
+    access::constructionOfBase(reader, v);
   }
   return {
       {}, std::move(reader.out.flows), {}, {}, std::move(reader.out.axes)}; // only addresses count

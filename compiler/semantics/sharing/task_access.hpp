@@ -42,10 +42,12 @@ struct PlacePath {
     Root,    ///< a global variable, a VAR_STAT, a program
     Self,    ///< a variable of the instance that runs
     Address, ///< what `symbol` (a pointer, reference, in-out or interface) leads to
+    Made,    ///< what `made`, a call of __NEW, makes
   };
   Base base = Base::None;
   const Symbol *symbol = nullptr;
   std::vector<AccessStep> steps;
+  const ast::CallExpr *made = nullptr;
 };
 
 struct PlaceAccess {
@@ -61,6 +63,8 @@ struct AddressFlow {
   const VarSymbol *target = nullptr;
   PlacePath place;
   const VarSymbol *from = nullptr;
+  /// Of initial values: the POU whose variable it is, or the global variable; null: any task's.
+  const Symbol *declared = nullptr;
 };
 
 struct CallEdge {
@@ -74,6 +78,7 @@ struct ImageAccess {
   uint64_t bytes = 1;
   bool writes = false;
   Span span;
+  bool isNumber = false; ///< signed or real: its bits mean nothing by themselves
 };
 
 /// A call of a library's block with an axis.

@@ -160,8 +160,16 @@ static bool isOpen(Reader &r, const CallExpr *e) {
 
 static void builtin(Reader &r, const CallExpr *e) {
   switch (builtinRow(e->builtin).takes.what) {
+  case BuiltinTakes::Name: // __NEW: how many, and what FB_Init gets
+    for (const Argument &a : e->arguments.subspan(1)) {
+      if (a.value == nullptr)
+        continue;
+      value(r, a.value);
+      if (a.parameter != nullptr && a.parameter->type != nullptr)
+        initialValue(r, a.parameter, a.value);
+    }
+    return;
   case BuiltinTakes::TypeOf:
-  case BuiltinTakes::Name:
   case BuiltinTakes::Bounds:
   case BuiltinTakes::Reference:
     return;

@@ -23,6 +23,8 @@ void call(Reader &r, const ast::CallExpr *e);
 void accessor(Reader &r, const ast::Expr *object, const Symbol *property, bool writes, Span span);
 void escape(Reader &r, const ast::Expr *e);
 void flow(Reader &r, const VarSymbol *target, const ast::Expr *value);
+/// The same of a value that a variable begins with, also of its parts.
+void initialValue(Reader &r, const VarSymbol *variable, const ast::Expr *init);
 /// Goes on to something inside of the place.
 inline void enter(const Reader &r, PlacePath &place, AccessStep step) {
   if (r.detail == AccessDetail::Places)

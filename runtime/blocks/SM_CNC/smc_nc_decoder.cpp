@@ -45,8 +45,12 @@ void begin(Block &block, Program &program) noexcept {
   cnc::startDecoding(block, startOf(block, program), block.bSoftMotion3 != 0);
   __builtin_memcpy(cnc::queueOf(&block.Queue)->programName, program.strProgramName.s,
                    sizeof block.Queue.strProgramName.s);
-  if (program.udiBuffer == cnc::kWholeProgram)
+  if (program.udiBuffer == cnc::kWholeProgram) {
     program.diReadPos = 0;
+    program.bBegun = 1;
+  }
+  block.pWords = program.pgc;
+  block.udiNextWord = 0;
   block.iStatus = ::st::SM_CNC::SMC_DEC_STATUS__READ_WORD;
 }
 
@@ -130,6 +134,21 @@ void step(Block &block, Program &program) noexcept {
   }
 }
 
+/// An online change has made the program anew: the same one goes on where it was, instead of
+/// another one nothing can. False: that is so, and the block has ended.
+bool goesOn(Block &block, Program &program) noexcept {
+  if (program.udiBuffer != cnc::kWholeProgram || program.bBegun != 0)
+    return true;
+  if (block.pWords == nullptr && block.udiNextWord != 0) {
+    end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_CNC_REF_TYPE);
+    return false;
+  }
+  if (block.pWords == program.pgc)
+    program.diReadPos = block.udiNextWord;
+  program.bBegun = 1;
+  return true;
+}
+
 } // namespace
 
 void st::SM_CNC::SMC_NCDecoder::body__(::stride::Ctx & /*ctx__*/) {
@@ -140,8 +159,10 @@ void st::SM_CNC::SMC_NCDecoder::body__(::stride::Ctx & /*ctx__*/) {
     return;
   if (!::stride::cnc::isProgram(program))
     end(*this, ::st::SM_Error::SMC_ERROR__SMC_NO_CNC_REF_TYPE);
-  else if (::stride::cnc::hasRoom(*this))
+  else if (goesOn(*this, program) && ::stride::cnc::hasRoom(*this)) {
     step(*this, program);
+    udiNextWord = program.diReadPos;
+  }
 }
 
 void st::SM_CNC::SMC_ShowCNCREF::body__(::stride::Ctx & /*ctx__*/) {

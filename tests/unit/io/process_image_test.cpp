@@ -189,6 +189,42 @@ TEST_F(Image, AnotherBuildUsesOtherBytes) {
   EXPECT_EQ(moved.inputs, (std::array<BYTE, 8>{1, 2, 3, 4, 0, 0, 0, 0}));
 }
 
+/// A device that is lost, and what of the image it takes for values of an operator.
+class LostKeys final : public IoDriver {
+public:
+  explicit LostKeys(std::vector<BYTE> &sensed) : sensed_(&sensed) {}
+  bool works(int64_t) noexcept override { return false; }
+  void sense(uint32_t, std::span<const BYTE> image) noexcept override {
+    sensed_->assign(image.begin(), image.end());
+  }
+  bool read(uint32_t, std::span<BYTE>) noexcept override { return false; }
+  void write(uint32_t, std::span<const BYTE>) noexcept override {}
+
+private:
+  std::vector<BYTE> *sensed_;
+};
+
+TEST_F(Image, SafeValuesAreNobodys) {
+  std::vector<BYTE> sensed;
+  device_.safeInputs = safe_.data();
+  devices_[0]->driver = std::make_unique<LostKeys>(sensed);
+  state_.inputs = {1, 2, 3, 4, 5, 6, 7, 8};
+  hooks_[1]->beforePous(ctx_); // watches
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_EQ(sensed, (std::vector<BYTE>{3})) << "not what the other task has put there";
+  EXPECT_EQ(state_.inputs, (std::array<BYTE, 8>{0x80, 0x81, 0x82, 0x83, 5, 6, 7, 8}));
+  sensed.clear();
+  StrideAppV1 other = app_;
+  State moved = state_;
+  for (const std::unique_ptr<ImageHook> &hook : hooks_)
+    hook->prepareRebind(other);
+  for (const std::unique_ptr<ImageHook> &hook : hooks_)
+    hook->rebind(other, reinterpret_cast<std::byte *>(&moved));
+  hooks_[1]->beforePous(ctx_);
+  hooks_[0]->beforePous(ctx_);
+  EXPECT_TRUE(sensed.empty()) << "nor what an online change took over";
+}
+
 TEST(CopyWhole, AnyPlaceAndLength) {
   alignas(8) std::array<BYTE, 32> from{};
   for (size_t i = 0; i < from.size(); ++i)
