@@ -6,3 +6,4 @@ N40 X$g_rWidth
 N50 X$$ N$g_rWidth$ Y1.2.3
 N60 PZ1 X / Y2
 N70 Ä5
+N80 Z-$g_rWidth$ X+$g_rWidth$
