@@ -10,6 +10,7 @@
 #include "compiler/semantics/fold.hpp"
 #include "compiler/semantics/held.hpp"
 #include "compiler/semantics/locations.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 

@@ -1,13 +1,13 @@
 // What is said about a name that nothing has.
 
 #include "compiler/semantics/names/names.hpp"
-#include "compiler/semantics/plain_data.hpp"
 
 #include "compiler/semantics/cam_tables.hpp"
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/plain_data.hpp"
 #include "compiler/source/suggest.hpp"
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 #include <array>
 #include <deque>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 namespace stride::io {
