@@ -188,9 +188,29 @@ void ReportStrategy::sync(antlr4::Parser *) {
   case Grammar::RuleCaseStatement:
     syncCase();
     break;
+  case Grammar::RuleTypeSpec:
+    syncEnumerator();
+    break;
   default:
     break;
   }
+}
+
+/// A keyword as an enumerator, `(idle, return)`: as a name, so that the other enumerators are
+/// known.
+void ReportStrategy::syncEnumerator() {
+  UnitStream &stream = parser_.stream();
+  const Token &before = current();
+  if ((before.type != Tok::LPAREN && before.type != Tok::COMMA) ||
+      before.index + 2 >= stream.size())
+    return;
+  Token &token = stream.token(before.index + 1);
+  const uint16_t after = stream.token(before.index + 2).type;
+  const bool ends = after == Tok::COMMA || after == Tok::RPAREN || after == Tok::ASSIGN;
+  if (!ends || !isKeywordType(token.type) || startsOperand(token.type))
+    return;
+  reportKeywordAsName(token);
+  useAsName(token);
 }
 
 void ReportStrategy::syncDeclarations(bool (*good)(uint16_t), const std::string &expected) {

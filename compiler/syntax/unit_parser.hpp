@@ -85,6 +85,7 @@ private:
   void syncStatements();
   void takeForCloserOf(const Context *block);
   void skipStrayCloser();
+  void syncEnumerator();
   void syncDeclarations(bool (*good)(uint16_t), const std::string &expected);
   void syncCase();
 

@@ -103,6 +103,7 @@ public:
       ids_.push_back(app.drives[group.firstDrive + i].driveId);
     }
     stopped_.resize(axes_.size());
+    sound_.resize(axes_.size());
     if (!bindGroupData(app, state))
       throw app::Error(fmt::format("the application was built with another layout of what the "
                                    "driver '{}' shares with it (axis group '{}'); build it again "
@@ -131,10 +132,10 @@ public:
   }
   void applicationStopped() override {
     for (size_t i = 0; i < axes_.size(); ++i)
-      stopped_[i] = axes_[i]->nAxisState != axis::state::kErrorStop;
+      sound_[i] = axes_[i]->nAxisState != axis::state::kErrorStop;
     group_.stopAll();
     for (size_t i = 0; i < axes_.size(); ++i)
-      stopped_[i] = stopped_[i] && axes_[i]->nAxisState == axis::state::kErrorStop;
+      stopped_[i] = sound_[i] && axes_[i]->nAxisState == axis::state::kErrorStop;
   }
   /// One line about each drive that is in error stop.
   void describeErrorStops(std::vector<std::string> &lines) const {
@@ -142,6 +143,8 @@ public:
       const axis::AxisRef &axis = *axes_[i];
       if (axis.nAxisState != axis::state::kErrorStop)
         continue;
+      if (sound_[i] && !stopped_[i] && axis.wFBErrorID == axis::error::kNotCalled)
+        continue; // it rested, coupled to another axis, and nobody leads it any more
       lines.push_back(fmt::format(
           "drive '{}' is in error stop: {}", names_[i],
           stopped_[i] ? std::string("it moved when the application stopped, and was braked")
@@ -290,6 +293,7 @@ private:
   std::vector<axis::AxisRef *> axes_;
   std::vector<std::string> names_; ///< Of the drives.
   std::vector<uint32_t> ids_;
+  std::vector<bool> sound_;   ///< Not in error stop when the application stopped.
   std::vector<bool> stopped_; ///< By applicationStopped(), so that it is no error of the program.
   uint64_t bootupErrorOffset_;
   uint32_t bootupErrorLength_; ///< 0: the application has no g_strBootupError

@@ -14,6 +14,7 @@
 #include "runtime/task/task_set.hpp"
 #include "runtime/task/task_thread.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <charconv>
@@ -29,6 +30,8 @@ namespace {
 
 /// More failures of one test are counted only by the first ones.
 constexpr size_t kMostFailures = 50;
+/// Of one assertion: one that fails in each cycle would hide all that follow.
+constexpr size_t kMostOfPlace = 3;
 
 /// A test as `stride test` names it: INDEX;CYCLE;TIMEOUT;LINE;NAME;FILE, times in ns.
 struct Plan {
@@ -78,11 +81,11 @@ private:
       return;
     }
     auto *tasks = static_cast<TestTasks *>(static_cast<TaskSet *>(ctx->host->self));
-    if (tasks->result_->failures.size() >= kMostFailures) {
+    const auto *assertion = reinterpret_cast<const FailedAssertion *>(text);
+    if (!tasks->isShown(*assertion)) {
       ++tasks->result_->omitted;
       return;
     }
-    const auto *assertion = reinterpret_cast<const FailedAssertion *>(text);
     TestFailure failure;
     failure.kind = assertion->function;
     failure.expected = assertion->expected;
@@ -94,6 +97,15 @@ private:
     failure.cycle = ctx->cycle;
     failure.timeNs = ctx->cycleStartNs;
     tasks->result_->failures.push_back(std::move(failure));
+  }
+
+  [[nodiscard]] bool isShown(const FailedAssertion &assertion) const {
+    const std::vector<TestFailure> &failures = result_->failures;
+    const auto ofPlace = std::count_if(failures.begin(), failures.end(), [&](const auto &failure) {
+      return failure.line == assertion.line && failure.column == assertion.col &&
+             failure.file == assertion.file;
+    });
+    return failures.size() < kMostFailures && static_cast<size_t>(ofPlace) < kMostOfPlace;
   }
 
   TestResult *result_;

@@ -149,6 +149,32 @@ TEST_F(Run, EveryKindOfExceptionStopsWithItsPlaceAndCalls) {
   }
 }
 
+TEST_F(Run, ACoupledAxisThatRestsAtTheEndIsNoNews) {
+  fs::copy(STRIDE_SOURCE_DIR "/examples/CanGantry", scratch_.path() / "p",
+           fs::copy_options::recursive);
+  fs::remove_all(scratch_.path() / "p/build");
+  std::string toml = readFile(scratch_.path() / "p/stride.toml");
+  for (size_t at = 0; (at = toml.find("\"CAN (SocketCAN)\"", at)) != std::string::npos;)
+    toml.replace(at, 17, "\"Dummy (CAN)\"");
+  toml.erase(toml.find("[[io]]"));
+  write("p/stride.toml", toml);
+  write("p/Gantry.st",
+        "PROGRAM Gantry\n"
+        "VAR\n"
+        "  l, r : MC_Power := (Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);\n"
+        "  g : MC_GearIn := (RatioNumerator := 1, RatioDenominator := 1,\n"
+        "                    Acceleration := 2000, Deceleration := 2000);\n"
+        "END_VAR\n"
+        "l(Axis := Left);\nr(Axis := Right);\n"
+        "g(Execute := l.Status AND r.Status, Master := Left, Slave := Right);\n"
+        "END_PROGRAM\n");
+  const ProcessResult result =
+      stride({"run", "p", "--for", "500ms", "--quiet", "--print", "Gantry.g.InGear"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out, "Gantry.g.InGear = TRUE\n");
+  EXPECT_THAT(result.err, Not(HasSubstr("error stop")));
+}
+
 TEST_F(Run, AxesBrakeToRestAfterAFault) {
   fs::copy(STRIDE_SOURCE_DIR "/examples/PLCopenSingle", scratch_.path() / "p",
            fs::copy_options::recursive);

@@ -86,15 +86,33 @@ TEST_F(UnitTests, SelectsByName) {
 }
 
 TEST_F(UnitTests, SaysHowManyFailuresItLeavesOut) {
+  std::string body;
+  for (int i = 0; i < 60; ++i)
+    body += "ASSERT_EQ(0, 1);\n";
   writeFile(scratch_.path() / "t.st", "{attribute 'test'}\n"
-                                      "FUNCTION_BLOCK Wrong\n"
-                                      "VAR i : INT; END_VAR\n"
-                                      "FOR i := 1 TO 60 DO ASSERT_EQ(i, 0); END_FOR;\n"
-                                      "END_FUNCTION_BLOCK\n");
+                                      "FUNCTION_BLOCK Wrong\n" +
+                                          body + "END_FUNCTION_BLOCK\n");
   const ProcessResult result = test({"--junit", "report.xml"});
   EXPECT_EQ(result.exitCode, 1) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("is 50\n  … and 10 more failures\n"));
+  EXPECT_THAT(result.out, HasSubstr("t.st:52:1"));
+  EXPECT_THAT(result.out, Not(HasSubstr("t.st:53:1")));
+  EXPECT_THAT(result.out, HasSubstr("is 0\n  … and 10 more failures\n"));
   EXPECT_THAT(readFile(scratch_.path() / "report.xml"), HasSubstr("… and 10 more failures&#10;</"));
+}
+
+TEST_F(UnitTests, AnAssertionThatFailsAgainAndAgainDoesNotHideOthers) {
+  writeFile(scratch_.path() / "t.st",
+            "{attribute 'test'}\n"
+            "FUNCTION_BLOCK Wrong\n"
+            "VAR i : INT; END_VAR\n"
+            "FOR i := 1 TO 200 DO ASSERT_EQ(i, 0); ASSERT_EQ(i MOD 200, 2); END_FOR;\n"
+            "ASSERT_EQ(i, 7);\n"
+            "END_FUNCTION_BLOCK\n");
+  const std::string out = test({}).out;
+  for (const char *shown : {"is 1\n", "is 2\n", "is 3\n", "is 4\n", "is 201\n"})
+    EXPECT_THAT(out, HasSubstr(shown));
+  EXPECT_THAT(out, Not(HasSubstr("is 5\n")));
+  EXPECT_THAT(out, HasSubstr("… and 393 more failures\n"));
 }
 
 TEST_F(UnitTests, BadUse) {

@@ -82,6 +82,14 @@ private:
     return {file_.id(), begin, std::max(begin + 1, static_cast<uint32_t>(scanner_.offset))};
   }
 
+  /// After an error: `Z-$x$`, which people write for other controls.
+  [[nodiscard]] bool isSignOfVariable() const {
+    const std::string_view text = file_.text();
+    const auto at = static_cast<size_t>(scanner_.offset);
+    return scanner_.error == GCodeError::BadNumber && at > 0 && at < text.size() &&
+           text[at] == '$' && (text[at - 1] == '-' || text[at - 1] == '+');
+  }
+
   void take(ScanEvent event) {
     switch (event) {
     case ScanEvent::Word:
@@ -107,7 +115,11 @@ private:
       program_.title = scanner_.name;
       break;
     case ScanEvent::Error: {
-      const TextWords words = describeText(scanner_.error);
+      const TextWords words =
+          isSignOfVariable() ? TextWords{"a variable has no sign before it", "this is no number",
+                                         "give the variable the negative value; only programs that "
+                                         "SMC_ReadNCFile2 reads can calculate"}
+                             : describeText(scanner_.error);
       Diagnostic &diagnostic =
           diagnostics_.report(Code::CncText, spanOf(), words.message, words.label);
       if (!words.help.empty())

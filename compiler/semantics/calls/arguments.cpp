@@ -378,8 +378,13 @@ static bool copiesAxisField(Context &c, Argument &argument, const Type *type,
   return true;
 }
 
+static const Type *checkForInOut(Context &c, Expr *&value, const Type *type) {
+  const ModeGuard named(c.inOutOf, value->kind == ExprKind::Name ? type : nullptr);
+  return check(c, value, type);
+}
+
 static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter) {
-  const Type *type = check(c, argument.value, parameter->type);
+  const Type *type = checkForInOut(c, argument.value, parameter->type);
   if (isError(type) || isError(parameter->type) || rejectProperty(c, argument.value, "pass"))
     return;
   if (isBitPlace(argument.value)) {

@@ -10,6 +10,7 @@
 #include "compiler/semantics/fold.hpp"
 #include "compiler/semantics/held.hpp"
 #include "compiler/semantics/locations.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 
@@ -298,8 +299,16 @@ static bool locateType(Context &c, VarSymbol *variable, uint64_t bytes, bool isB
   return true;
 }
 
+/// Whether a unit test is checked, also one of its methods or actions: it plays the devices.
+static bool isInTest(const Context &c) {
+  for (const PouSymbol *pou = c.scope.pou; pou != nullptr; pou = pou->owner)
+    if (pou->decl != nullptr && hasAttribute(pou->decl->attributes, AttributeId::Test))
+      return true;
+  return false;
+}
+
 void reportInputWritten(Context &c, const Expr *expr, const Location &at) {
-  if (at.area != Area::Input)
+  if (at.area != Area::Input || isInTest(c))
     return;
   c.report(Code::InputWritten, expr->span, "this writes to an input",
            "the device overwrites it at the start of the next cycle")

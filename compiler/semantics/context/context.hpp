@@ -56,6 +56,7 @@ struct Context {
   bool programTypes = false; ///< the type being resolved may be a PROGRAM
   const ast::Expr *assignTarget = nullptr;         ///< is checked as the target of an assignment
   const ast::TypeExpr *openArrayAllowed = nullptr; ///< the type of the VAR_IN_OUT being resolved
+  const Type *inOutOf = nullptr; ///< the type of the VAR_IN_OUT that the name being checked is for
 };
 
 /// Gives a mode of the context another value for the lifetime of the guard.

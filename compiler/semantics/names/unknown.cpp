@@ -7,6 +7,7 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/plain_data.hpp"
 #include "compiler/source/suggest.hpp"
 
 #include <algorithm>
@@ -220,6 +221,14 @@ static std::string qualifiedOnlyLibrary(Context &c, const Name &name) {
   return {};
 }
 
+static std::string helpForAxis(const Name &name, std::string_view type) {
+  return std::string(type == "axis_ref"
+                         ? "a drive or a virtual axis is declared in stride.toml: "
+                           "`[[bus.axis_group.drive]]` or `[[axis]]`"
+                         : "an axis group is declared in stride.toml: `[[bus.axis_group]]`") +
+         " with `name = \"" + std::string(name.text) + "\"`";
+}
+
 void reportUnknown(Context &c, const Name &name, Sought sought) {
   const bool asType = sought == Sought::Type;
   if (asType) { // one missing type is one mistake in a file
@@ -267,6 +276,8 @@ void reportUnknown(Context &c, const Name &name, Sought sought) {
   if (!similar.empty())
     d.suggest("a similar name exists: `" + std::string(similar) + "`", name.span,
               std::string(similar));
+  else if (!asType && isAxisType(c.inOutOf))
+    d.help(helpForAxis(name, typeAs<StructType>(c.inOutOf)->symbol->name.id->lower));
   else if (!asType)
     d.help("declare it in a VAR section of this POU or in a VAR_GLOBAL list");
 }

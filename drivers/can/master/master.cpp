@@ -197,13 +197,20 @@ void Master::giveSync() {
     node.syncPassed();
 }
 
+/// What the port knows is more: that there is no such interface, or that it has another bit rate.
+void Master::sayLost() {
+  if (state_ == ControllerState::BusOff)
+    news_.say("bus-off: the controller takes no part any more");
+  else
+    news_.say(port_->problem().empty() ? "the interface is down" : port_->problem());
+}
+
 void Master::watchBus() {
   const ControllerState before = state_;
   state_ = port_->state();
   if (isLost(state_)) {
     if (!isLost(before))
-      news_.say(state_ == ControllerState::BusOff ? "bus-off: the controller takes no part any more"
-                                                  : "the interface is down");
+      sayLost();
     for (Node &node : nodes_)
       node.lose(NodeLoss::Bus, news_);
   } else if (isLost(before)) {

@@ -100,6 +100,7 @@ private:
   void addPdoRoutes(uint8_t index);
   void useOtherPdos(size_t index);
   void giveSync();
+  void sayLost();
   void watchBus();
   void receiveAll();
   void awaitPdos();

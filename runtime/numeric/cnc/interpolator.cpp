@@ -166,6 +166,8 @@ double stepEnd(Interpolator &interpolator, const Command &command) noexcept {
 
 void limitStep(Interpolator &interpolator, const Command &command) noexcept {
   double &limit = interpolator.motion.wish.limit;
+  if (command.waitAtNextStop && limit <= interpolator.motion.way)
+    return; // it rests after a step
   if (!command.singleStep || !interpolator.hasHere)
     limit = exact::kInfinity;
   else if (limit == exact::kInfinity || limit <= interpolator.motion.way ||

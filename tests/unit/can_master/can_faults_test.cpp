@@ -306,6 +306,15 @@ TEST_F(CanBus, AnInterfaceThatIsDownIsSaidAtStartUp) {
   EXPECT_THAT(std::string(message.text()), HasSubstr("not there or not up"));
 }
 
+TEST_F(CanBus, WhyAnInterfaceIsDownIsSaid) {
+  addDrive(3);
+  start();
+  port->controller = ControllerState::Down;
+  port->whyDown = "there is no interface 'can7'";
+  cycle();
+  EXPECT_TRUE(host.heard("there is no interface 'can7'"));
+}
+
 TEST_F(CanBus, ErrorPassiveIsNewsOnce) {
   addDrive(3);
   start();

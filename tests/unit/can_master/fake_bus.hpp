@@ -53,6 +53,7 @@ public:
   int64_t monotonicNs() const noexcept override { return clock; }
   int64_t utcNs() const noexcept override { return utc; }
   ControllerState state() const noexcept override { return controller; }
+  std::string_view problem() const noexcept override { return whyDown; }
   size_t unconfirmed() const noexcept override { return late; }
   PortCounters counters() const noexcept override { return portCounters; }
 
@@ -76,6 +77,7 @@ public:
   SendResult result = SendResult::Sent;
   bool onlyProcess = false; ///< The result is that of process data only.
   ControllerState controller = ControllerState::Active;
+  std::string whyDown;
   PortCounters portCounters;
   size_t late = 0;
   int64_t clock = -1; ///< Of wait().

@@ -141,8 +141,14 @@ TEST(SyntaxError, KeywordsAsNames) {
             "SE0207 2:1 `type` is a keyword, it cannot be a name\nSE0207 2:17 `array` is a "
             "keyword, it cannot be a name\n");
   EXPECT_EQ(errors("TYPE to : INT; a : (by, x); END_TYPE"),
-            "SE0207 1:6 `to` is a keyword, it cannot be a name\nSE0201 1:21 expected an "
-            "expression, found `by`\n");
+            "SE0207 1:6 `to` is a keyword, it cannot be a name\n"
+            "SE0207 1:21 `by` is a keyword, it cannot be a name\n");
+  EXPECT_EQ(errors("TYPE a : (x, exit := 3, y, return); END_TYPE"),
+            "SE0207 1:14 `exit` is a keyword, it cannot be a name\n"
+            "SE0207 1:28 `return` is a keyword, it cannot be a name\n");
+  EXPECT_EQ(errors("TYPE a : INT (1..exit); END_TYPE"),
+            "SE0201 1:18 expected an expression, found `exit`\n");
+  EXPECT_EQ(errors("VAR_GLOBAL a : B(TRUE, FALSE); END_VAR"), "");
 }
 
 TEST(SyntaxError, Declarations) {

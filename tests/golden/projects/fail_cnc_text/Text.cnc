@@ -7,3 +7,4 @@ N50 X$$ N$g_rWidth$ Y1.2.3
 N60 PZ1 X / Y2
 N70 Ä5
 N80 X1e-05 Y2
+N90 Z-$g_rWidth$ X+$g_rWidth$
