@@ -273,7 +273,9 @@ void drive(Interpolator &interpolator, const Command &command) noexcept {
 } // namespace
 
 void start(Interpolator &interpolator, const Command &command) noexcept {
+  const Position position = interpolator.position; // of the path before, until this one begins
   interpolator = Interpolator{};
+  interpolator.position = position;
   path::reset(interpolator.motion, {command.law, command.jerk, command.share, false});
   interpolator.progress.source = -1;
 }
