@@ -143,8 +143,6 @@ struct Chain {
     interpolator->bExecute = static_cast<BOOL>(execute);
     interpolator->bAbort = static_cast<BOOL>(abort);
     interpolator->poqDataIn = last();
-    interpolator->dwIpoTime = 2000;
-    interpolator->dJerkMax = 20000;
     interpolator->body__(ctx);
   }
 };
