@@ -218,14 +218,16 @@ void turn(Interpolator &interpolator, const Command &command) noexcept {
   interpolator.hasHere = object != nullptr && segmentOf(interpolator, *object, interpolator.here);
   interpolator.next = interpolator.here;
   interpolator.hasNext = interpolator.hasHere && left < interpolator.here.length;
-  interpolator.known =
-      interpolator.hasHere && !interpolator.hasNext ? 1 : 0; // it is behind already
   interpolator.nextWay = left;
   interpolator.nextBegin = -left;
   interpolator.nextEnd = interpolator.here.length - left;
   interpolator.hereBegin = -left;
   if (interpolator.hasHere)
     interpolator.passed = switchesBefore(*object, left / interpolator.here.length);
+  if (interpolator.hasHere && !interpolator.hasNext) { // it is behind already
+    removeFirst(interpolator, command);
+    interpolator.hereBegin = interpolator.nextEnd = 0.0;
+  }
 }
 
 void turnIfWanted(Interpolator &interpolator, const Command &command) noexcept {
