@@ -335,6 +335,45 @@ void restartCase(uint64_t seed) {
   EXPECT_NE(fresh.interpolator->bDone, 0);
 }
 
+/// Other programs are appended while blocks may still be at work: nothing is left out in between.
+void appendCase(uint64_t seed) {
+  Random random(seed);
+  const char *const chains[] = {"", "s", "r", "m", "x", "c", "R", "ms", "Rcs", "rx"};
+  const std::string names = chains[random.below(10)];
+  std::string text = randomPath(random, false);
+  SCOPED_TRACE("seed " + std::to_string(seed) + ", processors \"" + names + "\"\n" + text);
+  std::vector<size_t> places;
+  for (size_t i = 0; i <= names.size(); ++i)
+    places.push_back(static_cast<size_t>(6 + random.below(30)));
+  Chain chain(text, names, places);
+  chain.decoder->bAppend = 1;
+  for (ProcessorBlock &processor : chain.processors)
+    processor.append(true);
+  Path path;
+  for (int program = 0; program < 3; ++program) {
+    const int cycles = program == 2 ? 4000 : random.below(200);
+    for (int cycle = 0; cycle < cycles; ++cycle) {
+      Inputs in;
+      in.decodes = cycle == 0 ? 1 : random.below(3);
+      in.processes = cycle == 0 ? 1 : random.below(3);
+      feed(chain, in, true);
+      if (random.chance(0.7))
+        take(chain.last(), path);
+    }
+    Inputs in;
+    if (program < 2)
+      feed(chain, in, false);
+    chain.program.diReadPos = 0;
+  }
+  take(chain.last(), path);
+  EXPECT_NE(chain.last()->bEndOfList, 0);
+  ASSERT_FALSE(path.empty());
+  for (size_t i = 1; i < path.size(); ++i)
+    for (int axis = 0; axis < cnc::kAxes; ++axis)
+      ASSERT_NEAR(path[i].start.coordinate[axis], path[i - 1].end.coordinate[axis], 1e-9)
+          << "object " << i << " axis " << axis;
+}
+
 } // namespace
 
 TEST(CncChain, DrivesThePathWhateverIsCalledWhen) {
@@ -354,4 +393,9 @@ TEST(CncChain, DrivesAfterAnAbortAsNewBlocksDo) {
 
 TEST(CncChain, DrivesAfterAnAbortWhereItOnceDidNot) {
   restartCase(50'978); // a stop ended some 1e-14 before the end of what is known: no plan led there
+}
+
+TEST(CncChain, AppendsWithoutAGap) {
+  for (int i = 0; i < wanted(100) && !HasFailure(); ++i)
+    appendCase(90'000 + static_cast<uint64_t>(i));
 }

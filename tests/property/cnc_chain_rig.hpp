@@ -36,6 +36,7 @@ using cnc::PathObject;
 /// A path processor as the chain sees it.
 struct ProcessorBlock {
   std::function<void(OutQueue *input, bool execute, bool abort)> call;
+  std::function<void(bool)> append;
   std::function<bool()> done, busy, failed;
   std::function<OutQueue *()> output;
 };
@@ -56,6 +57,7 @@ ProcessorBlock processorBlock(size_t places, const std::function<void(Block &)> 
     block->bAbort = static_cast<BOOL>(abort);
     block->body__(ctx);
   };
+  result.append = [block](bool appends) { block->bAppend = static_cast<BOOL>(appends); };
   result.done = [block] { return block->bDone != 0; };
   result.busy = [block] { return block->bBusy != 0; };
   result.failed = [block] { return block->bError != 0; };

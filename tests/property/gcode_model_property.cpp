@@ -1,5 +1,5 @@
-// Random programs of modes, systems of coordinates, planes, arcs, loops and variables beside a model
-// of what they mean: where each object ends, and where the centre of each arc is.
+// Random programs of modes, systems of coordinates, planes, arcs, loops and variables beside a
+// model of what they mean: where each object ends, and where the centre of each arc is.
 #include "tests/support/cases.hpp"
 #include "tests/support/random.hpp"
 #include "tests/unit/cnc/gcode_text.hpp"
@@ -140,8 +140,8 @@ private:
     }
     std::string text = clockwise ? "G2 " : "G3 ";
     for (const size_t k : {a, b})
-      text += wordOf("IJK"[k], absoluteCentre_ ? object.centre[k] - shift_[k]
-                                               : object.centre[k] - here_[k]);
+      text += wordOf("IJK"[k],
+                     absoluteCentre_ ? object.centre[k] - shift_[k] : object.centre[k] - here_[k]);
     text += wordsTo(object.end, named);
     if (byAngle)
       text += wordOf('T', angle);

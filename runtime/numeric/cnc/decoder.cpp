@@ -338,11 +338,6 @@ void startDecoder(Decoder &decoder, const Position &start) noexcept {
   resetSystem(decoder);
 }
 
-void appendDecoder(Decoder &decoder) noexcept {
-  decoder.state = Held::None;
-  decoder.jumping = false;
-}
-
 void decodeSentence(Decoder &decoder, const GCodeWord *words, int32_t count, int32_t line,
                     Decoded &result) noexcept {
   clear(result);

@@ -329,7 +329,6 @@ TEST(DecoderModes, SuppressedSentences) {
 
 TEST(DecoderModes, AppendedProgramsGoOn) {
   DecodedText first = decodeText("G91\nF5 G1 X1\n");
-  appendDecoder(first.decoder);
   const Scanned next = scanText("X2\n");
   Decoded decoded;
   decodeSentence(first.decoder, next.words.data(), 1, 1, decoded);
