@@ -39,7 +39,8 @@ PathObject geometryOf(const PathObject &object) {
 bool same(const PathObject &a, const PathObject &b) {
   const PathObject first = geometryOf(a);
   const PathObject second = geometryOf(b);
-  return std::memcmp(&first, &second, sizeof first) == 0;
+  return std::memcmp(static_cast<const void *>(&first), static_cast<const void *>(&second),
+                     sizeof first) == 0;
 }
 
 void take(OutQueue *queue, Path &into) {

@@ -107,7 +107,7 @@ private:
       if ((named[k] = random_.chance(0.6)))
         object.end[k] += number();
     named[0] = named[0] || (!named[1] && !named[2]);
-    const std::string text = "G1 " + wordsTo(object.end, named) + "\n";
+    std::string text = "G1 " + wordsTo(object.end, named) + "\n";
     add(object);
     return text;
   }
