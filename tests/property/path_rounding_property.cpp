@@ -50,6 +50,7 @@ TEST(PathRounding, ComesToTheEndFromWhereverItRests) {
     ASSERT_TRUE(extend(*motion, strip));
     int calls = 0;
     while (motion->way < strip.end && ++calls < 20000) {
+      comeByRounding(*motion);
       think(*motion, 64);
       move(*motion, 0.001, true);
     }

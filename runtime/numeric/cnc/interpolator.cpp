@@ -257,8 +257,9 @@ void drive(Interpolator &interpolator, const Command &command) noexcept {
     return;
   if (command.emergencyStop)
     path::freeze(motion);
-  path::think(motion, command.budget);
   const double before = motion.way;
+  path::comeByRounding(motion);
+  path::think(motion, command.budget);
   Progress &progress = interpolator.progress;
   progress.motion = {before, 0.0, 0.0, 0.0};
   if (moves) {

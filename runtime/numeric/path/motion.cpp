@@ -104,6 +104,20 @@ WayState move(Motion &motion, double time, bool pass) noexcept {
   return restAt(motion.way);
 }
 
+void comeByRounding(Motion &motion) noexcept {
+  constexpr double kUnits = 5e-14; // 225 units in the last place; plans fail up to 160
+  const Course &course = motion.course;
+  if (!isAtRest(motion) || motion.wish.stop || course.first == course.next)
+    return;
+  const Strip &strip = stripAt(course, stripOf(course, motion.way));
+  const double left = strip.end - motion.way;
+  if (!(left > 0.0 && left <= kUnits * motion.way))
+    return;
+  motion.way = strip.end;
+  motion.resting = strip.stop;
+  motion.gate = strip.gate;
+}
+
 void freeze(Motion &motion) noexcept {
   motion.law.next = motion.law.first;
   motion.since = 0.0;

@@ -151,20 +151,6 @@ double steadyTime(const Motion &motion, double from) noexcept {
   return exact::kInfinity;
 }
 
-void comeByRounding(Motion &motion) noexcept {
-  constexpr double kUnits = 5e-14; // 225 units in the last place; plans fail up to 160
-  const Course &course = motion.course;
-  if (course.first == course.next)
-    return;
-  const Strip &strip = stripAt(course, stripOf(course, motion.way));
-  const double left = strip.end - motion.way;
-  if (!(left > 0.0 && left <= kUnits * motion.way))
-    return;
-  motion.way = strip.end;
-  motion.resting = strip.stop;
-  motion.gate = strip.gate;
-}
-
 void cutLaw(Motion &motion) noexcept {
   Law &law = motion.law;
   if (motion.seek < law.next) {

@@ -238,10 +238,7 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
   if (isAtRest(motion)) {
     motion.planned = wish;
     motion.changed = 0;
-    if (wish.stop)
-      return false;
-    comeByRounding(motion);
-    if (!(motion.way < reachable(motion)))
+    if (wish.stop || !(motion.way < reachable(motion)))
       return false;
     beginFromRest(motion, motion.way, budget);
     return true;

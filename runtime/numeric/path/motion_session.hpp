@@ -59,10 +59,6 @@ void goAsAsked(Motion &motion) noexcept;
 /// Where it jumps from one side to the other, there is none in between. [s]
 double steadyTime(const Motion &motion, double from) noexcept;
 
-/// At rest: a strip's end that is ahead by rounding only is where the motion is. No cells lead over
-/// that way.
-void comeByRounding(Motion &motion) noexcept;
-
 /// The plan takes over: what the law has after that place goes.
 void cutLaw(Motion &motion) noexcept;
 
