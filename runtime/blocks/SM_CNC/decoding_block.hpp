@@ -34,9 +34,7 @@ template <class Block>
 void startDecoding(Block &block, const Position &start, bool softMotion3) noexcept {
   const bool append = block.bAppend != 0 && block.bBegun != 0;
   Queue *const queue = queueOf(&block.Queue);
-  if (append) {
-    appendDecoder(decoderOf(block));
-  } else {
+  if (!append) { // else all stays as it is, also an object that is held back
     queue->buffer = reinterpret_cast<uint8_t *>(block.pbyBufferOutQueue);
     queue->size = block.nSizeOutQueue;
     (void)clear(queue);

@@ -29,9 +29,13 @@ template <class Processor, class Block> Processor &processorOf(Block &block) noe
   return processorStateOf<Processor>(block).processor;
 }
 
+/// Whether a path is on its way through the processor.
+inline bool isAtWork(const StreamState &stream) noexcept {
+  return stream.phase == StreamPhase::Running || stream.phase == StreamPhase::Draining;
+}
+
 template <class Block> void showStream(Block &block, const StreamState &stream) noexcept {
-  const bool runs = stream.phase == StreamPhase::Running || stream.phase == StreamPhase::Draining;
-  block.bBusy = static_cast<BOOL>(runs);
+  block.bBusy = static_cast<BOOL>(isAtWork(stream));
   block.bDone = static_cast<BOOL>(stream.phase == StreamPhase::Done);
   block.bError = static_cast<BOOL>(stream.phase == StreamPhase::Failed);
   block.wErrorID = static_cast<int16_t>(stream.error);
@@ -40,6 +44,9 @@ template <class Block> void showStream(Block &block, const StreamState &stream) 
 /// Begins at a rising edge. With too little memory nothing happens.
 template <class Processor, class Block> void beginProcessor(Block &block) noexcept {
   ProcessorState<Processor> &state = processorStateOf<Processor>(block);
+  // What is held back of the path would be lost: who appends meanwhile goes on.
+  if (block.bAppend != 0 && isAtWork(state.stream))
+    return;
   state.stream = {};
   if (block.pbyBufferOutQueue == nullptr ||
       block.nSizeOutQueue < kLeastObjects * sizeof(PathObject))

@@ -134,6 +134,10 @@ bool checkMotion(const Work &work, int32_t function) noexcept {
   const bool centre = has(s, 'I') || has(s, 'J') || has(s, 'K');
   if ((function == 2 || function == 3) && !centre && !has(s, 'R'))
     return refuse(work, GCodeError::MissingWord, 'R');
+  // An arc leads to its end on the way that is not longer than a turn.
+  if ((function == 2 || function == 3) && has(s, 'T') &&
+      !(get(s, 'T') > 0.0 && get(s, 'T') <= 360.0))
+    return refuse(work, GCodeError::OutOfRange, 'T');
   if (function == 6 && !centre)
     return refuse(work, GCodeError::MissingWord, 'I');
   if ((ellipse || function == 2 || function == 3) && !keepsCircles(work.decoder))
@@ -332,11 +336,6 @@ void startDecoder(Decoder &decoder, const Position &start) noexcept {
   decoder.motion = -1;
   setFrame(decoder, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, false);
   resetSystem(decoder);
-}
-
-void appendDecoder(Decoder &decoder) noexcept {
-  decoder.state = Held::None;
-  decoder.jumping = false;
 }
 
 void decodeSentence(Decoder &decoder, const GCodeWord *words, int32_t count, int32_t line,

@@ -107,9 +107,6 @@ struct Decoded {
 /// program names, is what `start` says.
 void startDecoder(Decoder &decoder, const Position &start) noexcept;
 
-/// The beginning of a program that goes on where the last one has ended: everything stays.
-void appendDecoder(Decoder &decoder) noexcept;
-
 /// Decodes a sentence of at most kMostWords words without kEndOfSentence; kSkip is passed over.
 /// `line` stands for the number of a sentence without N.
 void decodeSentence(Decoder &decoder, const GCodeWord *words, int32_t count, int32_t line,

@@ -237,14 +237,16 @@ void turn(Interpolator &interpolator, const Command &command) noexcept {
   interpolator.hasHere = object != nullptr && segmentOf(interpolator, *object, interpolator.here);
   interpolator.next = interpolator.here;
   interpolator.hasNext = interpolator.hasHere && left < interpolator.here.length;
-  interpolator.known =
-      interpolator.hasHere && !interpolator.hasNext ? 1 : 0; // it is behind already
   interpolator.nextWay = left;
   interpolator.nextBegin = -left;
   interpolator.nextEnd = interpolator.here.length - left;
   interpolator.hereBegin = -left;
   if (interpolator.hasHere)
     interpolator.passed = switchesBefore(*object, left / interpolator.here.length);
+  if (interpolator.hasHere && !interpolator.hasNext) { // it is behind already
+    removeFirst(interpolator, command);
+    interpolator.hereBegin = interpolator.nextEnd = 0.0;
+  }
 }
 
 void turnIfWanted(Interpolator &interpolator, const Command &command) noexcept {
@@ -274,8 +276,9 @@ void drive(Interpolator &interpolator, const Command &command) noexcept {
     return;
   if (command.emergencyStop)
     path::freeze(motion);
-  path::think(motion, command.budget);
   const double before = motion.way;
+  path::comeByRounding(motion);
+  path::think(motion, command.budget);
   Progress &progress = interpolator.progress;
   progress.motion = {before, 0.0, 0.0, 0.0};
   if (moves) {
@@ -301,7 +304,9 @@ void rebase(Interpolator &interpolator) noexcept {
 } // namespace
 
 void start(Interpolator &interpolator, const Command &command) noexcept {
+  const Position position = interpolator.position; // of the path before, until this one begins
   interpolator = Interpolator{};
+  interpolator.position = position;
   path::reset(interpolator.motion, {command.law, command.jerk, command.share, false});
   interpolator.progress.source = -1;
 }

@@ -88,7 +88,8 @@ struct Interpolator {
   bool begun; ///< The first object of the queue, which has no way, has been there for a cycle.
 };
 
-/// Begins a path.
+/// Begins a path. The position stays where it was until the first object says where the path
+/// begins.
 void start(Interpolator &interpolator, const Command &command) noexcept;
 
 /// One cycle. The result stays in interpolator.progress.

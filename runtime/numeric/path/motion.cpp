@@ -29,6 +29,13 @@ bool waitsForLaw(const Motion &motion) noexcept {
 
 WayState restAt(double way) noexcept { return {way, 0.0, 0.0, 0.0}; }
 
+/// Whether the motion is at a gate already, though its last piece has some time left in which it
+/// goes no further but for rounding: who waits there finds it at the gate, and lets it go on.
+bool isAtGate(Motion &motion, double way) noexcept {
+  Law &law = motion.law;
+  return (markAt(law, law.first) & kGate) != 0 && way >= endAt(law, law.first);
+}
+
 /// Leaves the first piece of the law, `left` of whose time is over.
 void leavePiece(Motion &motion, double left) noexcept {
   Law &law = motion.law;
@@ -76,10 +83,11 @@ WayState move(Motion &motion, double time, bool pass) noexcept {
   for (;;) {
     const TimePiece &piece = pieceAt(law, law.first);
     const double t = timeInPiece(motion);
-    if (t < piece.duration * (1.0 - kRounding)) {
-      WayState state = stateAt(piece, t);
-      state.way = exact::smaller(state.way, endAt(law, law.first)); // but for rounding
-      state.way = exact::larger(state.way, motion.way);
+    const bool within = t < piece.duration * (1.0 - kRounding);
+    WayState state = within ? stateAt(piece, t) : WayState{};
+    state.way = exact::smaller(state.way, endAt(law, law.first)); // but for rounding
+    state.way = exact::larger(state.way, motion.way);
+    if (within && !isAtGate(motion, state.way)) {
       motion.way = state.way;
       motion.resting = motion.resting && !(t > 0.0); // it has gone on within this time
       return state;
@@ -94,6 +102,20 @@ WayState move(Motion &motion, double time, bool pass) noexcept {
     }
   }
   return restAt(motion.way);
+}
+
+void comeByRounding(Motion &motion) noexcept {
+  constexpr double kUnits = 5e-14; // 225 units in the last place; plans fail up to 160
+  const Course &course = motion.course;
+  if (!isAtRest(motion) || motion.wish.stop || course.first == course.next)
+    return;
+  const Strip &strip = stripAt(course, stripOf(course, motion.way));
+  const double left = strip.end - motion.way;
+  if (!(left > 0.0 && left <= kUnits * motion.way))
+    return;
+  motion.way = strip.end;
+  motion.resting = strip.stop;
+  motion.gate = strip.gate;
 }
 
 void freeze(Motion &motion) noexcept {

@@ -197,8 +197,11 @@ bool write(Motion &motion) noexcept {
   if (done) {
     endAt(motion.law, lastPiece(motion)) = plan.end;
     const bool final = plan.stops && plan.task.end == exact::kInfinity;
-    markAt(motion.law, motion.law.next - 1) =
-        static_cast<uint8_t>(kRest | (final ? kFinal : 0) | (plan.gate ? kGate : 0));
+    // A plan without a way has no piece, and ends where the law did: a gate stays one.
+    const bool gate = plan.gate || (motion.law.next == motion.fresh &&
+                                    (markAt(motion.law, lastPiece(motion)) & kGate) != 0);
+    markAt(motion.law, lastPiece(motion)) =
+        static_cast<uint8_t>(kRest | (final ? kFinal : 0) | (gate ? kGate : 0));
     motion.session = Session::None;
   }
   return true;

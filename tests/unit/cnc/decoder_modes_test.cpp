@@ -150,12 +150,19 @@ TEST(DecoderModes, ArcsInOtherPlanes) {
 }
 
 TEST(DecoderModes, OpeningAngles) {
-  const DecodedText text = decodeText("G1 X10\nG3 I-10 J0 T90\nG2 I0 J-10 T450\n");
-  ASSERT_EQ(text.objects.size(), 3U);
+  const DecodedText text = decodeText("G1 X10\nG3 I-10 J0 T90\nG2 I0 J-10 T90\nG3 I-10 T360\n");
+  ASSERT_EQ(text.objects.size(), 4U);
   EXPECT_NEAR(text.objects[1].end.coordinate[kAxisX], 0, kNear);
   EXPECT_NEAR(text.objects[1].end.coordinate[kAxisY], 10, kNear);
   EXPECT_NEAR(text.objects[1].parameterRange[1], -90, kNear);
   EXPECT_NEAR(text.objects[2].end.coordinate[kAxisX], 10, kNear);
+  EXPECT_NEAR(text.objects[3].parameterRange[1], -360, kNear);
+}
+
+/// An arc leads to its end: it would be another one than T says.
+TEST(DecoderModes, OpeningAnglesOfNoTurnOrMoreThanOneAreRefused) {
+  for (const char *bad : {"G2 I1 T0\n", "G3 I1 T-90\n", "G3 I1 T360.001\n", "G2 J1 T720 Z3\n"})
+    EXPECT_EQ(errorOf(bad), GCodeError::OutOfRange) << bad;
 }
 
 TEST(DecoderModes, ParabolaHasItsTangents) {
@@ -322,7 +329,6 @@ TEST(DecoderModes, SuppressedSentences) {
 
 TEST(DecoderModes, AppendedProgramsGoOn) {
   DecodedText first = decodeText("G91\nF5 G1 X1\n");
-  appendDecoder(first.decoder);
   const Scanned next = scanText("X2\n");
   Decoded decoded;
   decodeSentence(first.decoder, next.words.data(), 1, 1, decoded);

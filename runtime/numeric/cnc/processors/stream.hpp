@@ -12,6 +12,7 @@
 //   void start(P &);                        a new path; what the user sets (radius, ...) stays;
 //   Step next(P &, const Source &, Output &);
 //   Step finish(P &, Ending, Output &);     no object follows: puts out what it has held back.
+//   void placePause(P &, PathObject &);     left out where a synchronisation (G75) stays as it is.
 //
 // next() and finish() put out at most kMostPerStep objects. Step::Again asks to be called again
 // with the same object, when there is more to put out than that. Source: SoftMotion V2.3 manual,
@@ -118,6 +119,10 @@ void stepStream(StreamState &stream, Processor &processor, Queue *input, Queue *
   else
     step = finish(processor, turn == StreamTurn::Pause ? Ending::Pause : Ending::End, to);
   settleStep(stream, turn, step, input, to);
+  // The synchronisation has been put out just now.
+  if constexpr (requires(PathObject & pause) { placePause(processor, pause); })
+    if (turn == StreamTurn::Pause && stream.phase == StreamPhase::Draining)
+      placePause(processor, *objectFromEnd(output, 0));
 }
 
 } // namespace stride::cnc

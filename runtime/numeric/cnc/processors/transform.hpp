@@ -60,6 +60,11 @@ struct ScalePath : TransformPath {
 
 inline void start(TransformPath &path) noexcept { path.used = path.wanted; }
 Step next(TransformPath &path, const Source &source, Output &output) noexcept;
+/// A synchronisation stands where the path does.
+inline void placePause(const TransformPath &path, PathObject &pause) noexcept {
+  if (isUsable(path.used))
+    apply(path.used, pause);
+}
 inline Step finish(TransformPath & /*path*/, Ending /*ending*/, Output & /*output*/) noexcept {
   return Step::Took;
 }
