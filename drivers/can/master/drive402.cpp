@@ -83,10 +83,10 @@ void Drive402::read(const Signals &signals, uint16_t told) {
   modes_.seen(static_cast<int8_t>(signals.number(Signal::ModeDisplay)));
   const bool enabled = power_.state() == PowerState::Enabled;
   released_ = enabled ? std::min(released_ + 1, config_.brakeRelease + 1) : 0;
-  status_.driveStarted = enabled && released_ > config_.brakeRelease;
+  status_.driveStarted = enabled && released_ > config_.brakeRelease && !power_.blocked();
   // Both at once if both are wanted: programs that wait for MC_Power.Status only may move then.
-  status_.regulatorOn =
-      isRegulated(power_.state()) && (status_.driveStarted || !command_.driveStart);
+  status_.regulatorOn = isRegulated(power_.state()) && !power_.blocked() &&
+                        (status_.driveStarted || !command_.driveStart);
   if (const uint8_t now = controllerModeOf(modes_.current()); now != 0)
     status_.controllerMode = now;
   readActual(signals);
@@ -254,7 +254,8 @@ int32_t Drive402::driveTorque(double torque) const {
 uint32_t Drive402::targetPosition(bool regulated) const {
   if (regulated || (plan_.received & cyclic::kPosition) == 0)
     return command_.position;
-  const bool opening = power_.state() == PowerState::Enabled && !status_.driveStarted;
+  const bool opening =
+      power_.state() == PowerState::Enabled && !status_.driveStarted && !power_.blocked();
   return opening && controllerModeOf(modes_.current()) == kPositionControl ? lastTarget_
                                                                            : status_.position;
 }

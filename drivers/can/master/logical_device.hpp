@@ -111,7 +111,7 @@ private:
   uint32_t refreshCycles_;
   uint32_t pdoTimeout_;
   uint32_t missing_ = 0;
-  uint32_t wrongLength_ = 0; ///< TPDOs of another length, in a row.
+  std::array<uint8_t, DrivePlan::kMostPdos> wrongLength_{}; ///< Of each TPDO, in a row.
   uint32_t failedSends_ = 0; ///< Cycles in a row in which an RPDO did not go out.
   uint8_t seen_ = 0;         ///< Bit n: TPDO n has come since its start-up began.
   uint8_t needed_ = 0;       ///< … those that it must have sent to be started.

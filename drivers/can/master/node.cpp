@@ -188,6 +188,8 @@ void Node::lose(NodeLoss loss, bus::News &news) {
   if (phase_ != Phase::Started || loss_ != NodeLoss::None)
     return;
   loss_ = loss;
+  for (LogicalDevice &device : devices_) // in this cycle already
+    device.drive().reach(false);
   news.say("node ", uint32_t{config_.plan.node}, describe(loss),
            "; SMC_ResetAxisGroup or SMC3_ReinitDrive starts it anew");
 }

@@ -160,6 +160,22 @@ TEST_F(CanBus, ThreePdosOfAnotherLengthAreSilence) {
   EXPECT_TRUE(communicates(0));
 }
 
+// The statusword has a PDO of its own, by event, beside one at SYNC that is as it should be.
+TEST_F(CanBus, EachPdoHasItsLength) {
+  addDrive(3, 5);
+  nodes[0].pdosInOperation = {"183#B80B000000000000", "283#400208"};
+  start();
+  nodes[0].atSync = {"183#B80B000000000000", "283#4002"};
+  cycles(2);
+  EXPECT_TRUE(communicates(0));
+  cycle();
+  EXPECT_FALSE(communicates(0)) << "its statusword is none any more";
+  EXPECT_TRUE(host.heard("another length"));
+  nodes[0].atSync = {"183#B80B000000000000", "283#400208"};
+  cycles(2);
+  EXPECT_TRUE(communicates(0));
+}
+
 // Duplicate node id.
 TEST_F(CanBus, TwoNodesWithOneNumberStopAll) {
   addDrive(3);
@@ -296,6 +312,21 @@ TEST_F(CanBus, ABusThatIsLostLosesAllDrivesUntilTheirReset) {
   }
 }
 
+// restart-ms is shorter than a cycle, or the cycle was late.
+TEST_F(CanBus, ABusOffBetweenTwoCyclesLosesAllDrives) {
+  addDrive(3);
+  start();
+  enable(0);
+  port->portCounters.restarts = 1;
+  cycle();
+  EXPECT_FALSE(communicates(0));
+  EXPECT_TRUE(host.heard("node 3 cannot be reached: the bus is off"));
+  EXPECT_TRUE(host.heard("the bus is back"));
+  cycles(100);
+  EXPECT_FALSE(communicates(0)) << "until its reset";
+  EXPECT_FALSE(host.heard("the bus is back"));
+}
+
 TEST_F(CanBus, AnInterfaceThatIsDownIsSaidAtStartUp) {
   addDrive(3);
   make();
@@ -339,6 +370,23 @@ TEST_F(CanBus, MoreFramesThanACycleReads) {
   cycle();
   EXPECT_GT(port->toReceive.size(), 900U);
   EXPECT_TRUE(host.heard("more frames than"));
+}
+
+/// What others say at the same bus does not make old what the drive says.
+TEST_F(CanBus, AFullBusIsReadAsFastAsItComes) {
+  setup.cycleSeconds = 0.01;
+  addDrive(3);
+  start();
+  constexpr int kMostInACycle = 10'000 / 47; // bits at 1 Mbit/s, and of the shortest frame
+  for (int i = 0; i < 300; ++i) {
+    for (int k = 0; k < kMostInACycle; ++k)
+      port->give("7FF#");
+    shows(0, 0x240, static_cast<uint32_t>(i));
+    cycles(1);
+    ASSERT_LE(port->toReceive.size(), 2U) << i;
+    ASSERT_EQ(driver->status(0).position, static_cast<uint32_t>(i));
+  }
+  EXPECT_FALSE(host.heard("more frames than"));
 }
 
 TEST_F(CanBus, SomebodyElsesSyncIsNews) {
