@@ -147,6 +147,11 @@ void LogicalDevice::rpdoSent(size_t place, bool taken) {
   one.refresh = refreshCycles_;
 }
 
+void LogicalDevice::forgetSent() {
+  for (Rpdo &one : rpdos_)
+    one.known = false;
+}
+
 bool LogicalDevice::endOfPdos() {
   const bool failed =
       std::any_of(rpdos_.begin(), rpdos_.end(), [](const Rpdo &one) { return one.due; });

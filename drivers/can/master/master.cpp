@@ -215,8 +215,11 @@ void Master::watchBus() {
   const bool restarted = counters.restarts > restarts_; // perhaps it was off between two cycles
   restarts_ = counters.restarts;
   if (isLost(state_) || restarted)
-    for (Node &node : nodes_)
+    for (Node &node : nodes_) {
       node.lose(NodeLoss::Bus, news_);
+      for (LogicalDevice &device : node.devices())
+        device.forgetSent();
+    }
   if (isLost(state_)) {
     if (!isLost(before))
       news_.say(state_ == ControllerState::BusOff ? "bus-off: the controller takes no part any more"
