@@ -48,7 +48,7 @@ public:
   [[nodiscard]] bool rpdoDue(size_t place) const { return rpdos_[place].due; }
   [[nodiscard]] const Frame &rpdo(size_t place) const { return rpdos_[place].frame; }
   void rpdoSent(size_t place, bool taken);
-  /// What the controller had still to send is gone with it: nobody knows what the device has.
+  /// Nobody knows what of it has come to the device.
   void forgetSent();
   /// All RPDOs of the cycle have been tried. TRUE: now they fail again and again.
   bool endOfPdos();

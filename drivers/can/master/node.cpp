@@ -207,9 +207,13 @@ bus::DriveStatus Node::status(size_t place) const {
   return status;
 }
 
+/// Who is not heard may not hear either: what goes out when it changes is said in each cycle.
 void Node::makePdos() {
-  for (LogicalDevice &device : devices_)
+  for (LogicalDevice &device : devices_) {
+    if (silent_ || device.missing() > 0)
+      device.forgetSent();
     device.makePdos(phase_ == Phase::Started);
+  }
 }
 
 void Node::endOfPdos(bus::News &news) {
