@@ -43,6 +43,57 @@ TEST_F(CanBus, ANodeWithoutPdosIsSilentAfterThreeCycles) {
   EXPECT_THAT(port->takeSent(), Contains(HasSubstr("203#0F00"))) << "after MC_Reset";
 }
 
+/// It was told to switch off and does so with a ramp, in which it shows "operation enabled" and
+/// goes where it likes.
+TEST_F(CanBus, ALostDriveThatStillBrakesHasNoPower) {
+  addDrive(3);
+  start();
+  enable(0);
+  nodes[0].atSync.clear();
+  cycles(4);
+  shows(0, 0x227, 1100);
+  cycles(2);
+  EXPECT_TRUE(communicates(0));
+  EXPECT_FALSE(driver->status(0).driveStarted || driver->status(0).regulatorOn);
+  commands[0].errorAckn = true; // MC_Reset, too early
+  cycle();
+  commands[0].errorAckn = false;
+  port->takeSent();
+  shows(0, 0x227, 1200);
+  cycles(3);
+  EXPECT_THAT(port->takeSent(), Not(Contains(HasSubstr("203#0F00"))));
+  shows(0, 0x223, 1300);
+  cycles(2);
+  EXPECT_THAT(port->takeSent(), Contains("203#0F0014050000")) << "from where it stands";
+}
+
+/// It may not have heard that it shall be off.
+TEST_F(CanBus, ToADriveThatIsNotHeardControlwordsAreRepeated) {
+  addDrive(3, 5);
+  nodes[0].pdosInOperation = {"183#B80B000000000000", "283#400208"};
+  start();
+  port->takeSent();
+  cycles(5);
+  EXPECT_THAT(port->takeSent(), Not(Contains(HasSubstr("303#"))));
+  nodes[0].atSync.clear();
+  for (int i = 0; i < 6; ++i) {
+    cycle();
+    EXPECT_THAT(port->takeSent(), Contains("303#000008")) << i;
+  }
+}
+
+TEST_F(CanBus, AfterABusOffControlwordsAreRepeated) {
+  addDrive(3, 5);
+  nodes[0].pdosInOperation = {"183#B80B000000000000", "283#400208"};
+  start();
+  port->controller = ControllerState::BusOff; // with what was in its queue
+  cycle();
+  port->controller = ControllerState::Active;
+  port->takeSent();
+  cycle();
+  EXPECT_THAT(port->takeSent(), Contains("303#000008"));
+}
+
 TEST_F(CanBus, PdoTimeoutIsConfigured) {
   addDrive(3).add({"pdo_timeout", "", 10});
   start();
@@ -174,6 +225,23 @@ TEST_F(CanBus, EachPdoHasItsLength) {
   nodes[0].atSync = {"183#B80B000000000000", "283#400208"};
   cycles(2);
   EXPECT_TRUE(communicates(0));
+}
+
+TEST_F(CanBus, ASecondNodeStopsAllInTheCycleInWhichItIsFound) {
+  addDrive(3);
+  addDrive(4);
+  start();
+  enable(0);
+  enable(1);
+  const std::string one = nodes[0].atSync.front();
+  nodes[0].atSync = {one, one};
+  while (communicates(1)) {
+    port->takeSent();
+    cycle();
+  }
+  const std::vector<std::string> sent = port->takeSent();
+  EXPECT_THAT(sent, Contains(HasSubstr("204#0700")));
+  EXPECT_THAT(sent, Not(Contains(HasSubstr("204#0F00"))));
 }
 
 // Duplicate node id.
