@@ -213,6 +213,7 @@ void Drive402::stepHoming() {
   facts.inMode = modes_.current() == mode::kHoming;
   facts.inOther = controllerModeOf(modes_.current()) != 0;
   facts.modeLate = modes_.late();
+  facts.rests = resting_ >= bus::kRestCycles;
   facts.statusword = statusword_;
   homing_.step(facts);
   askedOffset_ = askedOffset_ && facts.wanted;

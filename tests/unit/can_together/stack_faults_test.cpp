@@ -333,5 +333,29 @@ TEST(CanStack, FaultsAtAnyTime) {
   }
 }
 
+/// The drive meets its limit switch before the reference, and brakes by itself.
+TEST(CanStack, AReferenceRunThatFailsDoesNotJump) {
+  Stack stack;
+  WireJudge judge(2);
+  bus::SetupParameters &drive = stack.add(5, 5);
+  drive.add({"inputs", "", 1});
+  drive.add({"physics.limit_positive", "", 3});
+  drive.add({"physics.home_switch_from", "", 20});
+  drive.add({"physics.home_switch_to", "", 25});
+  drive.add({"startup",
+             "6098h := 19\n6099h:1 := 150000\n6099h:2 := 10000\n609Ah := 2000000\n"
+             "6084h := 4000000\n6085h := 8000000",
+             0});
+  stack.make();
+  stack.network->bus().setTap(&judge);
+  judge.watch(stack.driver->master().node(0).devices()[0].plan(), stack.network->drive(0));
+  stack.axes[0]->homes = true;
+  for (int i = 0; i < 3000 && stack.axes[0]->failedHomes == 0; ++i) {
+    stack.cycle();
+    ASSERT_EQ(judge.complaint(), "") << i;
+  }
+  EXPECT_EQ(stack.axes[0]->failedHomes, 1);
+}
+
 } // namespace
 } // namespace stride::can
