@@ -324,7 +324,7 @@ TEST(CanStack, FaultsAtAnyTime) {
   if (const char *const given = std::getenv("STRIDE_STACK"); given != nullptr) {
     char *end = nullptr;
     first = static_cast<unsigned>(std::strtoul(given, &end, 10));
-    count = static_cast<unsigned>(std::strtoul(end + 1, nullptr, 10));
+    count = *end == ':' ? static_cast<unsigned>(std::strtoul(end + 1, nullptr, 10)) : 1;
   }
   for (unsigned seed = first; seed < first + count; ++seed) {
     episode(seed);

@@ -50,7 +50,7 @@ protected:
 };
 
 TEST_F(SocketPlace, OfThoseWhoBeginAtOnceOneListens) {
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < 60; ++round) {
     std::array<std::unique_ptr<SocketServer>, 3> servers;
     std::atomic<size_t> waiting{servers.size()};
     std::array<std::thread, 3> threads;
