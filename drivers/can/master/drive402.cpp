@@ -283,7 +283,10 @@ int32_t Drive402::targetTorque(uint8_t regulated, const Signals &signals) const 
 }
 
 void Drive402::writeTargets(Signals &signals) {
-  const uint8_t regulated = follows() ? controllerModeOf(modes_.current()) : uint8_t{0};
+  // A drive that shows a mode of no meaning for a while goes on in the one that it has.
+  const bool shown = controllerModeOf(modes_.current()) != 0 || modes_.current() == mode::kHoming;
+  const uint8_t taken = shown ? controllerModeOf(modes_.current()) : status_.controllerMode;
+  const uint8_t regulated = follows() ? taken : uint8_t{0};
   const uint32_t position = targetPosition(regulated == kPositionControl);
   const int32_t velocity = targetVelocity(regulated, signals);
   if (regulated == kVelocityControl)

@@ -199,6 +199,20 @@ TEST_F(Homing, IsGivenUp) {
   EXPECT_EQ(homing(), bus::Homing::None);
 }
 
+/// Not in a reference run: nothing of the mode has been asked.
+TEST_F(Homing, AModeThatMeansNothingStopsNoMotion) {
+  make();
+  enable();
+  signals.set(Signal::Position, 990);
+  for (uint32_t i = 0; i < 5; ++i) {
+    command.position = 1000 + 10 * i;
+    modeFollows = false;
+    signals.setNumber(Signal::ModeDisplay, i % 2 == 0 ? 8 : 0);
+    cycles(1, 0);
+    EXPECT_EQ(told(Signal::TargetPosition), command.position) << i;
+  }
+}
+
 // Touch probes.
 
 class Probe : public test::DriveTest {
