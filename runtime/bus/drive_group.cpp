@@ -46,7 +46,7 @@ DriveGroup::DriveGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
                        std::vector<axis::AxisRef *> axes, double cycleSeconds,
                        std::vector<axis::EncoderRef *> encoders)
     : driver_(std::move(driver)), group_(&group), axes_(std::move(axes)),
-      encoders_(std::move(encoders)) {
+      encoders_(std::move(encoders)), acknowledged_(axes_.size()) {
   group_->wState = 0;
   group_->wDriveCount = static_cast<uint16_t>(axes_.size());
   group_->pFirstDrive = axes_.empty() ? nullptr : axes_.front();
@@ -146,6 +146,10 @@ void DriveGroup::beginReset() {
   group_->udiResetsBegun = group_->udiResetsAsked;
   group_->wState = kResetBraking;
   resetCycles_ = 0;
+  brakeAll();
+}
+
+void DriveGroup::brakeAll() {
   for (axis::AxisRef *axis : axes_)
     if (isServed(*axis))
       brakeForRestart(*axis);
@@ -154,6 +158,7 @@ void DriveGroup::beginReset() {
 void DriveGroup::stepReset() {
   switch (group_->wState) {
   case kResetBraking:
+    brakeAll(); // a program that resets its axes goes on moving them
     if (axesAtRest())
       group_->wState = kResetPowerOff;
     break;
@@ -253,16 +258,17 @@ void readActual(axis::AxisRef &axis, const DriveStatus &status) {
     axis.fActCurrent = status.current;
 }
 
-/// Errors of the drive and of the bus, and the way out of them.
-void followErrors(axis::AxisRef &axis, const DriveStatus &status) {
-  if (axis.nAxisState != axis::state::kErrorStop) {
-    if (!status.communication)
-      axis::enterErrorStop(axis, axis::error::kCommunication);
-    else if (status.error)
-      axis::enterErrorStop(axis, axis::error::kDrive);
-  } else {
+/// Errors of the drive and of the bus, and the way out of them. TRUE: it has gone that way.
+bool followErrors(axis::AxisRef &axis, const DriveStatus &status) {
+  if (axis.nAxisState == axis::state::kErrorStop) {
     axis::acknowledge(axis);
+    return axis.nAxisState != axis::state::kErrorStop;
   }
+  if (!status.communication)
+    axis::enterErrorStop(axis, axis::error::kCommunication);
+  else if (status.error)
+    axis::enterErrorStop(axis, axis::error::kDrive);
+  return false;
 }
 
 /// The drive's reference run, started by MC_Home: the position at the reference becomes fReference.
@@ -299,18 +305,19 @@ void followDrive(axis::AxisRef &axis, const DriveStatus &status) {
     axis::followActual(axis);
 }
 
-void readDrive(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
+/// TRUE: its error has been acknowledged.
+bool readDrive(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
   if (!isServed(axis)) {
     if (axis.bRealDrive != 0)
       axis.bMovedInThisCycle = 0;
-    return;
+    return false;
   }
   const DriveStatus status = driver.status(index);
   const uint8_t before = axis.byRealControllerMode;
   readState(axis, status);
   readActual(axis, status);
   readCaptures(axis, status);
-  followErrors(axis, status);
+  const bool acknowledged = followErrors(axis, status);
   if (!axis::isPowered(axis))
     axis::leaveUnpowered(axis);
   else if (axis.nAxisState == axis::state::kPowerOff)
@@ -319,6 +326,7 @@ void readDrive(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
     axis::changeRegulated(axis, axis::regulatedIn(axis, before));
   followDrive(axis, status);
   axis::beginCycle(axis);
+  return acknowledged;
 }
 
 /// Where a torque takes the axis in this cycle: what the drive is told must lie there when it
@@ -353,8 +361,10 @@ double placeSet(const AxisDriver &driver, size_t index, axis::AxisRef &axis) {
   return axis.fSetVelocity;
 }
 
-/// `power`: the group lets its drives have it.
-void writeDrive(AxisDriver &driver, size_t index, axis::AxisRef &axis, bool power) {
+/// `power`: the group lets its drives have it. `acknowledged`: the error of the axis has been, in
+/// this cycle. What was asked before that may have been lost with the drive.
+void writeDrive(AxisDriver &driver, size_t index, axis::AxisRef &axis, bool power,
+                bool acknowledged) {
   axis::supervise(axis);
   const double velocity = placeSet(driver, index, axis);
   DriveCommand command;
@@ -366,7 +376,7 @@ void writeDrive(AxisDriver &driver, size_t index, axis::AxisRef &axis, bool powe
   const bool on = power && !isSwitchedOff(axis);
   command.regulatorOn = on && axis.bRegulatorOn != 0;
   command.driveStart = on && axis.bDriveStart != 0;
-  command.errorAckn = axis.bErrorAckn != 0;
+  command.errorAckn = axis.bErrorAckn != 0 || acknowledged;
   command.homing = axis::isDriveHoming(axis);
   writeCaptures(axis, driver, index, command);
   command.controllerMode = axis.byControllerMode;
@@ -391,7 +401,7 @@ void DriveGroup::executeStart() {
     axis::AxisRef &axis = *axes[i];
     if (begins || asksForRestart(axis))
       serveRestart(i);
-    readDrive(driver, i, axis);
+    acknowledged_[i] = readDrive(driver, i, axis) ? 1 : 0;
     if (axis::channelStep(axis.stChannel) != axis::ChannelStep::Idle)
       serveParameters(i);
   }
@@ -405,7 +415,7 @@ void DriveGroup::executeEnd() {
   axis::AxisRef *const *const axes = axes_.data();
   for (size_t i = 0, count = axes_.size(); i < count; ++i)
     if (axis::AxisRef &axis = *axes[i]; isServed(axis))
-      writeDrive(driver, i, axis, power);
+      writeDrive(driver, i, axis, power, acknowledged_[i] != 0);
   driver.executeEnd();
 }
 

@@ -75,6 +75,7 @@ private:
   StartUp startDrive(size_t index, uint16_t &failure);
   void startFailed(size_t index, std::string_view message);
   void beginReset();
+  void brakeAll();
   void stepReset();
   void restart(size_t index, bool keepRatio);
   void serveRestart(size_t index);
@@ -91,6 +92,7 @@ private:
   std::vector<axis::AxisRef *> axes_;
   std::vector<axis::EncoderRef *> encoders_;
   std::vector<Scaling> configured_;
+  std::vector<uint8_t> acknowledged_; ///< Of each axis, 1: its error has been, in this cycle.
   static constexpr size_t kNoDrive = SIZE_MAX;
 
   Message bootupError_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -16,10 +17,13 @@
 #include <new>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -42,6 +46,37 @@ constexpr size_t kMostInPath = sizeof(::sockaddr_un::sun_path) - sizeof kUnfinis
 /// After a failure to take somebody in. [ns]
 constexpr int64_t kPauseNs = 1'000'000'000;
 
+/// Of those who begin at the same socket at once, one after the other looks whether somebody
+/// listens there. Who may read the folder may hold its lock, too, so nobody waits for it for long.
+class FolderLock {
+public:
+  explicit FolderLock(const std::string &path)
+      : folder_(::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    constexpr int kTries = 100;
+    constexpr auto kPause = std::chrono::milliseconds(10);
+    for (int i = 0; i < kTries && ::flock(folder_.number(), LOCK_EX | LOCK_NB) != 0 &&
+                    (errno == EWOULDBLOCK || errno == EINTR);
+         ++i)
+      std::this_thread::sleep_for(kPause);
+  }
+
+private:
+  static std::string folderOf(const std::string &path) {
+    const size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  }
+
+  FileHandle folder_; ///< Closing it gives the lock back.
+};
+
+/// Which file has that name; another one may get it later.
+std::pair<::dev_t, ::ino_t> fileAt(const std::string &path) {
+  struct ::stat status {};
+  if (::lstat(path.c_str(), &status) != 0)
+    return {};
+  return {status.st_dev, status.st_ino};
+}
+
 /// Removes a socket file that is left over.
 void removeStale(const std::string &path, const ::sockaddr_un &address) {
   struct ::stat status {};
@@ -62,6 +97,7 @@ void removeStale(const std::string &path, const ::sockaddr_un &address) {
 /// The socket's file gets its name when the socket listens, so that whoever waits for the file can
 /// connect at once.
 FileHandle listenAt(const std::string &path) {
+  const FolderLock alone(path);
   removeStale(path, socketAddress(path));
   const std::string unfinished = path + kUnfinished;
   const ::sockaddr_un address = socketAddress(unfinished);
@@ -113,7 +149,7 @@ struct SocketServer::Impl {
   };
 
   explicit Impl(const std::string &address)
-      : path(socketPath(address)), listener(listenAt(path)),
+      : path(socketPath(address)), listener(listenAt(path)), file(fileAt(path)),
         wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
         service([this](Service::ClientId id, const std::string &line) { send(id, line); },
                 [this](Service::ClientId id) { drop(id); }) {
@@ -332,6 +368,7 @@ struct SocketServer::Impl {
 
   std::string path;
   FileHandle listener;
+  std::pair<::dev_t, ::ino_t> file; ///< The socket's.
   FileHandle wake;
   std::mutex outputMutex; // of which clients there are and what is sent to them
   std::map<Service::ClientId, Client> clients; // changed by the server's thread only
@@ -364,7 +401,9 @@ SocketServer::~SocketServer() {
   (void)!::write(impl_->wake.number(), &one, sizeof one);
   if (impl_->thread.joinable())
     impl_->thread.join();
-  ::unlink(impl_->path.c_str());
+  // Somebody may have removed it, and another run listen there now.
+  if (fileAt(impl_->path) == impl_->file)
+    ::unlink(impl_->path.c_str());
 }
 
 } // namespace stride::monitor

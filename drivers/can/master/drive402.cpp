@@ -83,10 +83,10 @@ void Drive402::read(const Signals &signals, uint16_t told) {
   modes_.seen(static_cast<int8_t>(signals.number(Signal::ModeDisplay)));
   const bool enabled = power_.state() == PowerState::Enabled;
   released_ = enabled ? std::min(released_ + 1, config_.brakeRelease + 1) : 0;
-  status_.driveStarted = enabled && released_ > config_.brakeRelease;
+  status_.driveStarted = enabled && released_ > config_.brakeRelease && !power_.blocked();
   // Both at once if both are wanted: programs that wait for MC_Power.Status only may move then.
-  status_.regulatorOn =
-      isRegulated(power_.state()) && (status_.driveStarted || !command_.driveStart);
+  status_.regulatorOn = isRegulated(power_.state()) && !power_.blocked() &&
+                        (status_.driveStarted || !command_.driveStart);
   if (const uint8_t now = controllerModeOf(modes_.current()); now != 0)
     status_.controllerMode = now;
   readActual(signals);
@@ -213,6 +213,7 @@ void Drive402::stepHoming() {
   facts.inMode = modes_.current() == mode::kHoming;
   facts.inOther = controllerModeOf(modes_.current()) != 0;
   facts.modeLate = modes_.late();
+  facts.rests = resting_ >= bus::kRestCycles;
   facts.statusword = statusword_;
   homing_.step(facts);
   askedOffset_ = askedOffset_ && facts.wanted;
@@ -254,7 +255,8 @@ int32_t Drive402::driveTorque(double torque) const {
 uint32_t Drive402::targetPosition(bool regulated) const {
   if (regulated || (plan_.received & cyclic::kPosition) == 0)
     return command_.position;
-  const bool opening = power_.state() == PowerState::Enabled && !status_.driveStarted;
+  const bool opening =
+      power_.state() == PowerState::Enabled && !status_.driveStarted && !power_.blocked();
   return opening && controllerModeOf(modes_.current()) == kPositionControl ? lastTarget_
                                                                            : status_.position;
 }
@@ -281,7 +283,10 @@ int32_t Drive402::targetTorque(uint8_t regulated, const Signals &signals) const 
 }
 
 void Drive402::writeTargets(Signals &signals) {
-  const uint8_t regulated = follows() ? controllerModeOf(modes_.current()) : uint8_t{0};
+  // A drive that shows a mode of no meaning for a while goes on in the one that it has.
+  const bool shown = controllerModeOf(modes_.current()) != 0 || modes_.current() == mode::kHoming;
+  const uint8_t taken = shown ? controllerModeOf(modes_.current()) : status_.controllerMode;
+  const uint8_t regulated = follows() ? taken : uint8_t{0};
   const uint32_t position = targetPosition(regulated == kPositionControl);
   const int32_t velocity = targetVelocity(regulated, signals);
   if (regulated == kVelocityControl)

@@ -47,6 +47,10 @@ void HomingRun::step(const Facts &facts) {
     else
       watch(facts.statusword);
     break;
+  case Step::Braking:
+    if (!facts.enabled || facts.rests || (facts.statusword & kTargetReached) != 0 || late)
+      go(Step::Failed);
+    break;
   case Step::Leaving:
     if (facts.inOther)
       go(Step::Found);
@@ -59,13 +63,14 @@ void HomingRun::step(const Facts &facts) {
   }
 }
 
-/// Bit 12: attained; 13: error; 10: at rest. 10 alone: interrupted, or not started yet.
+/// Bit 12: attained; 13: error; 10: at rest. 10 alone: interrupted, or not started yet. In another
+/// mode a drive that still brakes would be led back to where it was when it said so.
 void HomingRun::watch(uint16_t statusword) {
   const bool attained = (statusword & kHomingAttained) != 0;
   const bool atRest = (statusword & kTargetReached) != 0;
   const bool late = cycles_ >= timeout_;
   if ((statusword & kHomingError) != 0)
-    go(Step::Failed);
+    go(atRest ? Step::Failed : Step::Braking);
   else if (attained && (atRest || late))
     go(Step::Leaving);
   else if (!attained && atRest && (moved_ || late))

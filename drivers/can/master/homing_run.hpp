@@ -14,6 +14,7 @@ public:
     Entering, ///< The mode.
     Starting, ///< Bit 4 is up; what the drive said before may still be seen.
     Running,
+    Braking, ///< The drive has given up, and is not at rest yet.
     Leaving, ///< The reference is known; the mode of before is awaited.
     Found,
     Failed,
@@ -27,6 +28,7 @@ public:
     bool inMode = false;     ///< It shows the mode of homing.
     bool inOther = false;    ///< It shows the mode of before.
     bool modeLate = false;   ///< It does not take the mode that it shall have.
+    bool rests = false;      ///< By its positions.
     uint16_t statusword = 0; ///< Of now.
   };
 
@@ -39,11 +41,11 @@ public:
 
   [[nodiscard]] Step step() const { return step_; }
   /// 6060h shall be that of homing.
-  [[nodiscard]] bool wantsMode() const {
-    return step_ == Step::Entering || step_ == Step::Starting || step_ == Step::Running;
-  }
+  [[nodiscard]] bool wantsMode() const { return step_ == Step::Entering || start(); }
   /// Bit 4 of the controlword.
-  [[nodiscard]] bool start() const { return step_ == Step::Starting || step_ == Step::Running; }
+  [[nodiscard]] bool start() const {
+    return step_ == Step::Starting || step_ == Step::Running || step_ == Step::Braking;
+  }
 
 private:
   void go(Step step);

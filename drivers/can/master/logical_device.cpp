@@ -11,7 +11,7 @@ namespace stride::can {
 namespace {
 
 constexpr double kRefresh = 0.1; ///< RPDOs by event go out at least so often. [s]
-constexpr uint32_t kMostWrong = 3;
+constexpr uint8_t kMostWrong = 3;
 constexpr uint32_t kMostFailedSends = 2;
 
 uint8_t placeBit(size_t place) { return static_cast<uint8_t>(1U << place); }
@@ -75,10 +75,11 @@ void LogicalDevice::tpdo(size_t place, const Frame &frame) {
   if (place >= plan_.tpdoCount) // of the start-up before
     return;
   if (!takeOver(place, frame)) {
-    wrongLength_ = std::min(wrongLength_ + 1, kMostWrong);
+    if (wrongLength_[place] < kMostWrong)
+      ++wrongLength_[place];
     return;
   }
-  wrongLength_ = 0;
+  wrongLength_[place] = 0;
   seen_ = seen_ | placeBit(place);
   atSync_[place] = true;
   if (arrived_[place] < UINT8_MAX)
@@ -100,7 +101,11 @@ void LogicalDevice::countPdos(uint32_t syncs) {
     missing_ = all ? 0 : std::min(missing_ + 1, pdoTimeout_);
 }
 
-bool LogicalDevice::wrongLength() const { return wrongLength_ >= kMostWrong; }
+/// Each by itself: the statusword may have a PDO that is wrong beside one that is right.
+bool LogicalDevice::wrongLength() const {
+  return std::any_of(wrongLength_.begin(), wrongLength_.end(),
+                     [](uint8_t inARow) { return inARow >= kMostWrong; });
+}
 
 bool LogicalDevice::duplicate() const {
   return std::any_of(balances_.begin(), balances_.end(),
@@ -142,6 +147,11 @@ void LogicalDevice::rpdoSent(size_t place, bool taken) {
   one.refresh = refreshCycles_;
 }
 
+void LogicalDevice::forgetSent() {
+  for (Rpdo &one : rpdos_)
+    one.known = false;
+}
+
 bool LogicalDevice::endOfPdos() {
   const bool failed =
       std::any_of(rpdos_.begin(), rpdos_.end(), [](const Rpdo &one) { return one.due; });
@@ -174,14 +184,15 @@ void LogicalDevice::reset() {
   drive_.end();
   parameters_.clear();
   fault_ = before_ = saidStuck_ = joined_ = false;
-  missing_ = wrongLength_ = failedSends_ = 0;
+  missing_ = failedSends_ = 0;
+  wrongLength_ = {};
   balances_ = {};
   seen_ = 0;
 }
 
 void LogicalDevice::readDrive(uint16_t told, bool reachable, uint8_t node, bus::News &news) {
-  drive_.read(signals_, told);
   drive_.reach(reachable);
+  drive_.read(signals_, told);
   before_ = fault_;
   fault_ = drive_.fault();
   if (drive_.velocityDoubtful())

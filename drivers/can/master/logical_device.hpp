@@ -48,6 +48,8 @@ public:
   [[nodiscard]] bool rpdoDue(size_t place) const { return rpdos_[place].due; }
   [[nodiscard]] const Frame &rpdo(size_t place) const { return rpdos_[place].frame; }
   void rpdoSent(size_t place, bool taken);
+  /// Nobody knows what of it has come to the device.
+  void forgetSent();
   /// All RPDOs of the cycle have been tried. TRUE: now they fail again and again.
   bool endOfPdos();
   [[nodiscard]] bool sendsFail() const;
@@ -111,7 +113,7 @@ private:
   uint32_t refreshCycles_;
   uint32_t pdoTimeout_;
   uint32_t missing_ = 0;
-  uint32_t wrongLength_ = 0; ///< TPDOs of another length, in a row.
+  std::array<uint8_t, DrivePlan::kMostPdos> wrongLength_{}; ///< Of each TPDO, in a row.
   uint32_t failedSends_ = 0; ///< Cycles in a row in which an RPDO did not go out.
   uint8_t seen_ = 0;         ///< Bit n: TPDO n has come since its start-up began.
   uint8_t needed_ = 0;       ///< … those that it must have sent to be started.

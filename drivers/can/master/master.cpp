@@ -14,8 +14,13 @@ constexpr uint32_t kMostMissed = 3;
 constexpr uint32_t kMostLate = 2;
 constexpr double kLssTimeout = 0.5; ///< To store something may take a while. [s]
 constexpr double kBootTime = 2;     ///< Of devices that LSS has reset, at most. [s]
-/// Frames that are read in a cycle, as a multiple of those that are planned.
+/// Frames that are read in a cycle, as a multiple of those that are planned …
 constexpr size_t kReserve = 4;
+/// … and of those that the bus can carry meanwhile, whoever sends them: what is left in the queue
+/// would make all later ones old. A cycle of minutes does not get memory for them all.
+constexpr uint64_t kBusReserve = 2;
+constexpr uint64_t kShortestFrame = 47; // bit
+constexpr uint64_t kMostFrames = 16384;
 
 size_t plannedFrames(const MasterConfig &config) {
   size_t frames = 1 + std::max(config.sdoPerCycle, kMostSdosPerCycle);
@@ -27,6 +32,12 @@ size_t plannedFrames(const MasterConfig &config) {
   return frames;
 }
 
+size_t framesToRead(const MasterConfig &config) {
+  const uint64_t onTheBus = kBusReserve * (config.bitsPerCycle / kShortestFrame);
+  return std::max(kReserve * plannedFrames(config),
+                  static_cast<size_t>(std::min(onTheBus, kMostFrames)));
+}
+
 bool isLost(ControllerState state) {
   return state == ControllerState::BusOff || state == ControllerState::Down;
 }
@@ -34,7 +45,7 @@ bool isLost(ControllerState state) {
 } // namespace
 
 Master::Master(const MasterConfig &config, std::unique_ptr<Port> port)
-    : config_(config), port_(std::move(port)), frames_(kReserve * plannedFrames(config)),
+    : config_(config), port_(std::move(port)), frames_(framesToRead(config)),
       heartbeatCycles_(cyclesOf(config.heartbeat, config.cycle)),
       timeCycles_(config.timeStamp > 0 ? cyclesOf(config.timeStamp, config.cycle) : 0),
       lss_(cyclesOf(kLssTimeout, config.cycle)) {
@@ -208,22 +219,28 @@ void Master::sayLost() {
 void Master::watchBus() {
   const ControllerState before = state_;
   state_ = port_->state();
+  const PortCounters counters = port_->counters();
+  const bool restarted = counters.restarts > restarts_; // perhaps it was off between two cycles
+  restarts_ = counters.restarts;
+  if (isLost(state_) || restarted)
+    for (Node &node : nodes_) {
+      node.lose(NodeLoss::Bus, news_);
+      for (LogicalDevice &device : node.devices())
+        device.forgetSent();
+    }
   if (isLost(state_)) {
     if (!isLost(before))
       sayLost();
-    for (Node &node : nodes_)
-      node.lose(NodeLoss::Bus, news_);
-  } else if (isLost(before)) {
+  } else if (isLost(before) || restarted) {
     news_.say("the bus is back");
   } else if (state_ == ControllerState::Passive && before != ControllerState::Passive) {
     news_.say("the controller is error-passive: check wiring, termination and bit rate");
   }
-  const uint64_t dropped = port_->counters().dropped;
-  if (dropped > dropped_)
-    news_.say(static_cast<uint32_t>(dropped - dropped_),
+  if (counters.dropped > dropped_)
+    news_.say(static_cast<uint32_t>(counters.dropped - dropped_),
               " received frames were lost for want of room");
-  dropped_ = dropped;
-  if (port_->counters().unlogged > 0 && !saidUnlogged_) {
+  dropped_ = counters.dropped;
+  if (counters.unlogged > 0 && !saidUnlogged_) {
     news_.say("the log of the bus lacks frames: its file is too slow, or the disk is full");
     saidUnlogged_ = true;
   }

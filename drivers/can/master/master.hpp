@@ -132,6 +132,7 @@ private:
   size_t early_ = 0;             ///< Frames that have come while SYNC was awaited.
   MasterCounters counters_;
   uint64_t dropped_ = 0;
+  uint64_t restarts_ = 0;
   uint32_t heartbeatCycles_;
   uint32_t toHeartbeat_ = 0;
   uint32_t timeCycles_; ///< Of the time stamps; 0: there are none.

@@ -188,6 +188,8 @@ void Node::lose(NodeLoss loss, bus::News &news) {
   if (phase_ != Phase::Started || loss_ != NodeLoss::None)
     return;
   loss_ = loss;
+  for (LogicalDevice &device : devices_) // in this cycle already
+    device.drive().reach(false);
   news.say("node ", uint32_t{config_.plan.node}, describe(loss),
            "; SMC_ResetAxisGroup or SMC3_ReinitDrive starts it anew");
 }
@@ -205,9 +207,13 @@ bus::DriveStatus Node::status(size_t place) const {
   return status;
 }
 
+/// Who is not heard may not hear either: what goes out when it changes is said in each cycle.
 void Node::makePdos() {
-  for (LogicalDevice &device : devices_)
+  for (LogicalDevice &device : devices_) {
+    if (silent_ || device.missing() > 0)
+      device.forgetSent();
     device.makePdos(phase_ == Phase::Started);
+  }
 }
 
 void Node::endOfPdos(bus::News &news) {

@@ -115,7 +115,8 @@ void PowerControl::demand(PowerTarget target, bool acknowledge) {
   if (!acknowledge)
     tried_ = false;
   else if (reachable_)
-    stuck_ = blocked_ = false;
+    stuck_ = false;
+  release(acknowledge);
   if (fault_) {
     demandInFault(acknowledge);
     if (fault_)
@@ -127,6 +128,13 @@ void PowerControl::demand(PowerTarget target, bool acknowledge) {
     target = PowerTarget::Off;
   controlword_ = wordFor(state_, target, p_.off);
   watch(target);
+}
+
+/// While a drive that was lost brakes by itself it shows that it is in operation.
+void PowerControl::release(bool acknowledge) {
+  released_ = blocked_ && reachable_ && (released_ || acknowledge);
+  if (released_ && state_ != PowerState::Enabled && state_ != PowerState::QuickStop)
+    blocked_ = released_ = false;
 }
 
 /// An edge of the reset bit for each acknowledgement; the fault is over when the drive says so and

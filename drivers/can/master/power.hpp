@@ -69,7 +69,11 @@ public:
   void reach(bool reachable) {
     reachable_ = reachable;
     blocked_ = blocked_ || !reachable;
+    released_ = released_ && reachable;
   }
+  /// It has been lost, and is switched off: perhaps it still brakes by itself, wherever its set
+  /// values are.
+  [[nodiscard]] bool blocked() const { return blocked_; }
   /// What is wanted in this cycle: makes the controlword of it. `acknowledge`: errors.
   void demand(PowerTarget target, bool acknowledge);
 
@@ -82,6 +86,7 @@ public:
   [[nodiscard]] bool stuck() const { return stuck_; }
 
 private:
+  void release(bool acknowledge);
   void demandInFault(bool acknowledge);
   void watch(PowerTarget target);
 
@@ -93,6 +98,7 @@ private:
   bool fault_ = false;
   bool stuck_ = false;
   bool blocked_ = false;
+  bool released_ = false; ///< Somebody has acknowledged that: it may go on as soon as it is off.
   bool reachable_ = true;
   bool acknowledged_ = false; ///< The fault, since it came.
   bool tried_ = false;        ///< This acknowledgement has had its reset.

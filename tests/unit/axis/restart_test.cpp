@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <memory>
+#include <vector>
+
 namespace {
 
 namespace state = stride::axis::state;
@@ -78,6 +82,102 @@ TEST(Restart, GoesOnAfterAResetOfTheWholeGroup) {
   EXPECT_EQ(rig.axis.stRestart.udiBegun, rig.axis.stRestart.udiAsked);
   EXPECT_EQ(rig.axis.bRealDrive, 0);
   EXPECT_EQ(rig.axis.nAxisState, state::kStandstill) << "MC_Power serves it";
+}
+
+/// Two drives that do at once what they are told.
+class WillingDriver final : public stride::bus::AxisDriver {
+public:
+  void executeStart() override {}
+  void executeEnd() override {}
+  StartUp init(size_t /*drive*/, uint16_t & /*progress*/,
+               stride::bus::Message & /*message*/) override {
+    return StartUp::Started;
+  }
+  void reset(size_t /*drive*/) override { ++resets; }
+  [[nodiscard]] stride::bus::DriveStatus status(size_t drive) const override {
+    stride::bus::DriveStatus status;
+    status.communication = communicates;
+    status.regulatorOn = status.driveStarted = told[drive].regulatorOn;
+    status.position = told[drive].position;
+    return status;
+  }
+  void command(size_t drive, const stride::bus::DriveCommand &command) override {
+    told[drive] = command;
+  }
+  [[nodiscard]] uint8_t controllerModes(size_t /*drive*/) const override { return 8; }
+
+  std::array<stride::bus::DriveCommand, 2> told{};
+  int resets = 0;
+  bool communicates = true;
+};
+
+struct TwoAxes {
+  TwoAxes() {
+    auto own = std::make_unique<WillingDriver>();
+    driver = &*own;
+    std::vector<stride::axis::AxisRef *> refs;
+    for (stride::axis::AxisRef *axis : {&first.axis, &second.axis}) {
+      axis->bRegulatorOn = axis->bDriveStart = 1;
+      refs.push_back(axis);
+    }
+    group = std::make_unique<stride::bus::DriveGroup>(std::move(own), groupRef, refs, 0.001);
+  }
+  template <class Program> void cycle(Program program) {
+    group->executeStart();
+    program();
+    group->executeEnd();
+  }
+  AxisRig first;
+  AxisRig second;
+  stride::bus::AxisGroupRef groupRef = stride::test::fresh<stride::bus::AxisGroupRef>();
+  WillingDriver *driver = nullptr;
+  std::unique_ptr<stride::bus::DriveGroup> group;
+};
+
+TEST(GroupReset, DoesNotWaitForAnAxisThatIsSwitchedOnAndMovedMeanwhile) {
+  TwoAxes two;
+  for (int i = 0; i < 5; ++i)
+    two.cycle([] {});
+  ASSERT_EQ(two.second.axis.nAxisState, state::kStandstill);
+  auto braking = two.first.move(1000);
+  for (int i = 0; i < 500; ++i)
+    two.cycle([&] { two.first.call(braking, true); });
+  two.second.axis.bRegulatorOn = 0;
+  two.cycle([&] { two.first.call(braking, true); });
+  two.cycle([&] { two.first.call(braking, true); });
+  ASSERT_EQ(two.second.axis.nAxisState, state::kPowerOff);
+  ++two.groupRef.udiResetsAsked;
+  two.cycle([&] { two.first.call(braking, true); });
+  two.second.axis.bRegulatorOn = 1;
+  auto endless = two.second.move(1e6);
+  int cycles = 0;
+  for (; cycles < 3000 && two.driver->resets == 0; ++cycles)
+    two.cycle([&] {
+      two.second.call(endless,
+                      two.second.axis.nAxisState == state::kStandstill || endless.Busy != 0);
+    });
+  EXPECT_LT(cycles, 3000);
+  EXPECT_EQ(two.driver->resets, 2);
+}
+
+/// A drive that has been lost goes on only when its driver hears of it.
+TEST(GroupAcknowledgement, IsToldInTheCycleInWhichItCounts) {
+  TwoAxes two;
+  for (int i = 0; i < 5; ++i)
+    two.cycle([] {});
+  two.driver->communicates = false;
+  two.cycle([] {});
+  ASSERT_EQ(two.first.axis.nAxisState, state::kErrorStop);
+  two.first.axis.bErrorAckn = 1; // MC_Reset has begun before
+  two.cycle([] {});
+  ASSERT_EQ(two.first.axis.nAxisState, state::kErrorStop);
+  two.driver->communicates = true;
+  two.cycle([] {});
+  EXPECT_NE(two.first.axis.nAxisState, state::kErrorStop);
+  EXPECT_TRUE(two.driver->told[0].errorAckn);
+  EXPECT_FALSE(two.driver->told[1].errorAckn);
+  two.cycle([] {});
+  EXPECT_FALSE(two.driver->told[0].errorAckn) << "once";
 }
 
 TEST(Restart, AnAxisInVirtualModeIsNoMatterOfItsGroup) {

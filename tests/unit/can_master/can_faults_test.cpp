@@ -43,6 +43,57 @@ TEST_F(CanBus, ANodeWithoutPdosIsSilentAfterThreeCycles) {
   EXPECT_THAT(port->takeSent(), Contains(HasSubstr("203#0F00"))) << "after MC_Reset";
 }
 
+/// It was told to switch off and does so with a ramp, in which it shows "operation enabled" and
+/// goes where it likes.
+TEST_F(CanBus, ALostDriveThatStillBrakesHasNoPower) {
+  addDrive(3);
+  start();
+  enable(0);
+  nodes[0].atSync.clear();
+  cycles(4);
+  shows(0, 0x227, 1100);
+  cycles(2);
+  EXPECT_TRUE(communicates(0));
+  EXPECT_FALSE(driver->status(0).driveStarted || driver->status(0).regulatorOn);
+  commands[0].errorAckn = true; // MC_Reset, too early
+  cycle();
+  commands[0].errorAckn = false;
+  port->takeSent();
+  shows(0, 0x227, 1200);
+  cycles(3);
+  EXPECT_THAT(port->takeSent(), Not(Contains(HasSubstr("203#0F00"))));
+  shows(0, 0x223, 1300);
+  cycles(2);
+  EXPECT_THAT(port->takeSent(), Contains("203#0F0014050000")) << "from where it stands";
+}
+
+/// It may not have heard that it shall be off.
+TEST_F(CanBus, ToADriveThatIsNotHeardControlwordsAreRepeated) {
+  addDrive(3, 5);
+  nodes[0].pdosInOperation = {"183#B80B000000000000", "283#400208"};
+  start();
+  port->takeSent();
+  cycles(5);
+  EXPECT_THAT(port->takeSent(), Not(Contains(HasSubstr("303#"))));
+  nodes[0].atSync.clear();
+  for (int i = 0; i < 6; ++i) {
+    cycle();
+    EXPECT_THAT(port->takeSent(), Contains("303#000008")) << i;
+  }
+}
+
+TEST_F(CanBus, AfterABusOffControlwordsAreRepeated) {
+  addDrive(3, 5);
+  nodes[0].pdosInOperation = {"183#B80B000000000000", "283#400208"};
+  start();
+  port->controller = ControllerState::BusOff; // with what was in its queue
+  cycle();
+  port->controller = ControllerState::Active;
+  port->takeSent();
+  cycle();
+  EXPECT_THAT(port->takeSent(), Contains("303#000008"));
+}
+
 TEST_F(CanBus, PdoTimeoutIsConfigured) {
   addDrive(3).add({"pdo_timeout", "", 10});
   start();
@@ -158,6 +209,39 @@ TEST_F(CanBus, ThreePdosOfAnotherLengthAreSilence) {
   shows(0, 0x240, 3001);
   cycles(2);
   EXPECT_TRUE(communicates(0));
+}
+
+// The statusword has a PDO of its own, by event, beside one at SYNC that is as it should be.
+TEST_F(CanBus, EachPdoHasItsLength) {
+  addDrive(3, 5);
+  nodes[0].pdosInOperation = {"183#B80B000000000000", "283#400208"};
+  start();
+  nodes[0].atSync = {"183#B80B000000000000", "283#4002"};
+  cycles(2);
+  EXPECT_TRUE(communicates(0));
+  cycle();
+  EXPECT_FALSE(communicates(0)) << "its statusword is none any more";
+  EXPECT_TRUE(host.heard("another length"));
+  nodes[0].atSync = {"183#B80B000000000000", "283#400208"};
+  cycles(2);
+  EXPECT_TRUE(communicates(0));
+}
+
+TEST_F(CanBus, ASecondNodeStopsAllInTheCycleInWhichItIsFound) {
+  addDrive(3);
+  addDrive(4);
+  start();
+  enable(0);
+  enable(1);
+  const std::string one = nodes[0].atSync.front();
+  nodes[0].atSync = {one, one};
+  while (communicates(1)) {
+    port->takeSent();
+    cycle();
+  }
+  const std::vector<std::string> sent = port->takeSent();
+  EXPECT_THAT(sent, Contains(HasSubstr("204#0700")));
+  EXPECT_THAT(sent, Not(Contains(HasSubstr("204#0F00"))));
 }
 
 // Duplicate node id.
@@ -296,6 +380,21 @@ TEST_F(CanBus, ABusThatIsLostLosesAllDrivesUntilTheirReset) {
   }
 }
 
+// restart-ms is shorter than a cycle, or the cycle was late.
+TEST_F(CanBus, ABusOffBetweenTwoCyclesLosesAllDrives) {
+  addDrive(3);
+  start();
+  enable(0);
+  port->portCounters.restarts = 1;
+  cycle();
+  EXPECT_FALSE(communicates(0));
+  EXPECT_TRUE(host.heard("node 3 cannot be reached: the bus is off"));
+  EXPECT_TRUE(host.heard("the bus is back"));
+  cycles(100);
+  EXPECT_FALSE(communicates(0)) << "until its reset";
+  EXPECT_FALSE(host.heard("the bus is back"));
+}
+
 TEST_F(CanBus, AnInterfaceThatIsDownIsSaidAtStartUp) {
   addDrive(3);
   make();
@@ -348,6 +447,23 @@ TEST_F(CanBus, MoreFramesThanACycleReads) {
   cycle();
   EXPECT_GT(port->toReceive.size(), 900U);
   EXPECT_TRUE(host.heard("more frames than"));
+}
+
+/// What others say at the same bus does not make old what the drive says.
+TEST_F(CanBus, AFullBusIsReadAsFastAsItComes) {
+  setup.cycleSeconds = 0.01;
+  addDrive(3);
+  start();
+  constexpr int kMostInACycle = 10'000 / 47; // bits at 1 Mbit/s, and of the shortest frame
+  for (int i = 0; i < 300; ++i) {
+    for (int k = 0; k < kMostInACycle; ++k)
+      port->give("7FF#");
+    shows(0, 0x240, static_cast<uint32_t>(i));
+    cycles(1);
+    ASSERT_LE(port->toReceive.size(), 2U) << i;
+    ASSERT_EQ(driver->status(0).position, static_cast<uint32_t>(i));
+  }
+  EXPECT_FALSE(host.heard("more frames than"));
 }
 
 TEST_F(CanBus, SomebodyElsesSyncIsNews) {

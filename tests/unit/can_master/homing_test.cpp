@@ -1,4 +1,5 @@
 // Reference runs and touch probes of the drive.
+#include "runtime/bus/drive_values.hpp"
 #include "tests/unit/can_master/drive_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -103,7 +104,13 @@ TEST_F(Homing, Fails) {
   for (const int bits : {0x2000, 0x2400, 0x3000, 0x3400}) {
     start();
     cycles(20, 0);
-    cycles(2, bits);
+    for (uint32_t i = 0; (bits & 0x0400) == 0 && i < 20; ++i) { // it brakes
+      signals.set(Signal::Position, 1000 + 100 * i);
+      cycles(1, bits);
+      EXPECT_EQ(homing(), bus::Homing::Running) << bits;
+      EXPECT_EQ(number(Signal::Mode), 6) << "it would be led back";
+    }
+    cycles(2, bits | 0x0400);
     EXPECT_EQ(homing(), bus::Homing::Failed) << bits;
     EXPECT_EQ(number(Signal::Mode), 8);
     EXPECT_EQ(told(Signal::Controlword), 0x0FU);
@@ -111,6 +118,28 @@ TEST_F(Homing, Fails) {
     cycles(2, 0);
     EXPECT_EQ(homing(), bus::Homing::None);
   }
+}
+
+TEST_F(Homing, FailsAtRestWithoutSayingThatItRests) {
+  start();
+  cycles(20, 0);
+  for (uint32_t i = 0; i < 5; ++i) {
+    signals.set(Signal::Position, 1000 + 100 * i);
+    cycles(1, 0x2000);
+  }
+  EXPECT_EQ(homing(), bus::Homing::Running);
+  cycles(static_cast<int>(bus::kRestCycles) + 2, 0x2000);
+  EXPECT_EQ(homing(), bus::Homing::Failed);
+}
+
+TEST_F(Homing, LosesPowerWhileItBrakes) {
+  start();
+  cycles(20, 0);
+  signals.set(Signal::Position, 1000);
+  cycles(1, 0x2000);
+  cycle(0x240);
+  cycle(0x240);
+  EXPECT_EQ(homing(), bus::Homing::Failed);
 }
 
 TEST_F(Homing, IsInterrupted) {
@@ -168,6 +197,20 @@ TEST_F(Homing, IsGivenUp) {
   EXPECT_EQ(number(Signal::Mode), 8);
   cycles(2, 0);
   EXPECT_EQ(homing(), bus::Homing::None);
+}
+
+/// Not in a reference run: nothing of the mode has been asked.
+TEST_F(Homing, AModeThatMeansNothingStopsNoMotion) {
+  make();
+  enable();
+  signals.set(Signal::Position, 990);
+  for (uint32_t i = 0; i < 5; ++i) {
+    command.position = 1000 + 10 * i;
+    modeFollows = false;
+    signals.setNumber(Signal::ModeDisplay, i % 2 == 0 ? 8 : 0);
+    cycles(1, 0);
+    EXPECT_EQ(told(Signal::TargetPosition), command.position) << i;
+  }
 }
 
 // Touch probes.
