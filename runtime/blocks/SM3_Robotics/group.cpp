@@ -200,7 +200,10 @@ bool takesMovements(const GroupRef &group) noexcept {
          group.eState == decl::SMC_AXIS_GROUP_STATE__GroupMoving;
 }
 
-bool rests(const GroupRef &group) noexcept { return standsStill(stateOf(group)); }
+bool rests(const GroupRef &group) noexcept {
+  // What an error has left of a motion is not gone over.
+  return group.bOwns == 0 || standsStill(stateOf(group));
+}
 
 void beginMoving(GroupRef &group) noexcept {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby)
