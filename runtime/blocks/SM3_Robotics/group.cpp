@@ -200,7 +200,10 @@ bool takesMovements(const GroupRef &group) noexcept {
          group.eState == decl::SMC_AXIS_GROUP_STATE__GroupMoving;
 }
 
-bool rests(const GroupRef &group) noexcept { return standsStill(stateOf(group)); }
+bool rests(const GroupRef &group) noexcept {
+  // What an error has left of a motion is not gone over.
+  return group.bOwns == 0 || standsStill(stateOf(group));
+}
 
 void beginMoving(GroupRef &group) noexcept {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby)
@@ -295,7 +298,7 @@ int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
   return state.error[request.id % group::kOutcomes];
 }
 
-int16_t beginStop(Ctx &ctx, GroupRef &group, const Request &stop) {
+int16_t beginStop(Ctx &ctx, GroupRef &group, const Request &stop, uint64_t &holder) {
   bindTriggers(group, ctx.cycle + 1, 0, error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
   if (!takesMovements(group) && group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
@@ -304,12 +307,21 @@ int16_t beginStop(Ctx &ctx, GroupRef &group, const Request &stop) {
   GroupState &state = stateOf(group);
   abortAll(state, true);
   setBraking(state, stop);
+  if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping) {
+    ++state.stop;
+    state.stops = 0;
+  }
+  if (holder != state.stop)
+    ++state.stops;
+  holder = state.stop;
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStopping;
   return 0;
 }
 
 void endStop(GroupRef &group) {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
+    return;
+  if (--stateOf(group).stops > 0)
     return;
   endTriggers(stateOf(group));
   forgetSystems(stateOf(group));
@@ -342,11 +354,13 @@ int16_t enable(Ctx &ctx, GroupRef &group) {
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;
   const uint64_t lastId = stateOf(group).motion.lastId; // what has been kept says its ids
   const int64_t epoch = stateOf(group).motion.epoch;    // and what another task plans this
+  const uint64_t stop = stateOf(group).stop;            // old blocks of MC_GroupStop hold nothing
   const uint64_t lastTrigger =
       stateOf(group).triggers.lastId; // who reads an old one gets no new one
   stateOf(group) = GroupState{};
   stateOf(group).triggers.lastId = stateOf(group).triggers.settledId = lastTrigger;
   stateOf(group).motion.lastId = lastId;
+  stateOf(group).stop = stop;
   stateOf(group).motion.epoch = epoch + 1;
   for (auto &carrier : group.astCarrier.v)
     carrier = {};

@@ -97,6 +97,8 @@ struct GroupState {
   group::MovingSystem master[2]; ///< PCS_1 and PCS_2 in WCS, if they are on other groups' tools.
   double uncapped; ///< Way of the motion up to which ancillary limits of axes are not planned
                    ///< with. [u]
+  uint64_t stop;   ///< How often MC_GroupStop has taken the group.
+  int32_t stops;   ///< Blocks of MC_GroupStop that hold it now.
   Triggers triggers;
   double forecast;       ///< How much of the motion is planned, since the start of the cycle. [s]
   group::GroupRest rest; ///< The next one, since then.
@@ -117,8 +119,9 @@ bool takesMovements(const GroupRef &group) noexcept;
 /// Asks the group for something; an SMC_ERROR if it refuses at once. The request gets its id.
 int16_t ask(Ctx &ctx, GroupRef &group, Request &request);
 
-/// Lets MC_GroupStop begin, and end.
-int16_t beginStop(Ctx &ctx, GroupRef &group, const Request &stop);
+/// Lets MC_GroupStop begin, and end: the last block of those that hold the group lets it go.
+/// `holder`: GroupState::stop of the block. An SMC_ERROR.
+int16_t beginStop(Ctx &ctx, GroupRef &group, const Request &stop, uint64_t &holder);
 void endStop(GroupRef &group);
 
 /// Lets the group go on by the present cycle, unless it has done so.

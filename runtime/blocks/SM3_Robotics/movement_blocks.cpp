@@ -113,10 +113,12 @@ void decl::MC_GroupStop::body__(::stride::Ctx &ctx__) {
     stop.order.accelerationFactor = AccFactor;
     stop.order.jerkFactor = JerkFactor;
     stop.torqueFactor = 1.0;
-    const int16_t error =
-        AxisGroup != nullptr ? robotics::beginStop(ctx__, *AxisGroup, stop) : robotics::kNoGroup;
+    const int16_t error = AxisGroup != nullptr
+                              ? robotics::beginStop(ctx__, *AxisGroup, stop, stBlock.ulId)
+                              : robotics::kNoGroup;
     robotics::setError(*this, error);
-    stBlock.bRunning = error == 0;
+    // One that is refused while it holds the group goes on to hold it.
+    stBlock.bRunning = error == 0 || (stBlock.bRunning != 0 && AxisGroup != nullptr);
     Done = CommandAborted = 0;
   } else if (Execute == 0 && stBlock.bRunning == 0) {
     robotics::setError(*this, 0);
@@ -124,12 +126,16 @@ void decl::MC_GroupStop::body__(::stride::Ctx &ctx__) {
   }
   if (stBlock.bRunning != 0) {
     const bool holds = AxisGroup->eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping;
-    CommandAborted = !holds;
-    Done = holds && robotics::rests(*AxisGroup);
-    if (Done != 0 && Execute == 0)
+    const bool rests = holds && robotics::rests(*AxisGroup);
+    const bool ends = rests && Execute == 0;
+    CommandAborted = !holds && Error == 0;
+    Done = rests && Error == 0;
+    if (ends) {
+      stBlock.ulId = 0;
       robotics::endStop(*AxisGroup);
-    stBlock.bRunning = holds && !(Done != 0 && Execute == 0);
+    }
+    stBlock.bRunning = holds && !ends;
   }
   Active = stBlock.bRunning;
-  Busy = stBlock.bRunning;
+  Busy = stBlock.bRunning != 0 && Error == 0;
 }

@@ -126,13 +126,21 @@ void putStill(GroupMotion &group, const Arm &arm) noexcept {
   putAxes(group, standing, place, {});
 }
 
-void put(GroupMotion &group, const Arm &arm, const path::WayState &state) noexcept {
+bool isStill(const Movement &movement) noexcept {
+  return !(movement.leg.length > 0.0) || dwells(movement);
+}
+
+/// `from`: the movement in which the group was before this cycle.
+void put(GroupMotion &group, const Arm &arm, const path::WayState &state, int64_t from) noexcept {
   // A movement that has just ended still says where the group is.
   const bool ended =
       group.first > 0 && (group.first == group.next || !hasBegun(group, group.first) ||
                           dwells(movementAt(group, group.first)));
-  const Movement &movement = movementAt(group, ended ? group.first - 1 : group.first);
-  if (!(movement.leg.length > 0.0) || dwells(movement)) {
+  int64_t number = ended ? group.first - 1 : group.first;
+  while (number > from && isStill(movementAt(group, number)))
+    --number; // those that go nowhere have ended with it, and do not say where that is
+  const Movement &movement = movementAt(group, number);
+  if (isStill(movement)) {
     putStill(group, arm);
     return;
   }
@@ -161,9 +169,10 @@ void moveBy(GroupMotion &group, const Arm &arm, double time) noexcept {
       putStill(group, arm);
     return;
   }
+  const int64_t from = group.first;
   const path::WayState state = path::move(group.motion, time, true);
   settle(group, state.velocity > 0.0 && state.acceleration < 0.0);
-  put(group, arm, state);
+  put(group, arm, state, from);
 }
 } // namespace
 

@@ -146,10 +146,16 @@ Cuts cutsOf(const GroupMotion &group, const Arm &arm, const Movement &before,
         smaller(order.transitionValue, smaller(mostBefore / perBefore, mostAfter / perAfter));
     return {distance * perBefore, distance * perAfter};
   }
-  if (order.transition == Transition::StartVelocity)
-    return {smaller(mostBefore, order.transitionValue * rampOf(group, arm, before, true).way),
-            smaller(mostAfter, order.transitionValue * rampOf(group, arm, after, false).way)};
-  return {0.0, 0.0};
+  if (order.transition != Transition::StartVelocity)
+    return {0.0, 0.0};
+  const Cuts cuts{smaller(mostBefore, order.transitionValue * rampOf(group, arm, before, true).way),
+                  smaller(mostAfter, order.transitionValue * rampOf(group, arm, after, false).way)};
+  if (!leadsTool(before.leg) || !leadsTool(after.leg))
+    return cuts;
+  // A corner that took far more of the one would bend at its very end, and be crept through.
+  constexpr double kMostTimes = 16.0;
+  return {smaller(cuts.before, kMostTimes * cuts.after),
+          smaller(cuts.after, kMostTimes * cuts.before)};
 }
 
 /// Whether the path turns round where two legs meet, so that there is no corner.
