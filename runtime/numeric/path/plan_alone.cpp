@@ -1,5 +1,5 @@
-// A run along one straight strip from rest to rest: its law has a closed form, up to seven pieces
-// of constant jerk, which is the quickest there is.
+// A run along one strip from rest to rest: its law has a closed form, up to seven pieces of
+// constant jerk, which is the quickest there is where the strip is straight.
 #include "runtime/numeric/path/plan_cells.hpp"
 
 namespace stride::path {
@@ -18,6 +18,22 @@ double rampsWay(double velocity, const Limits &limits) noexcept {
   return 0.5 * velocity *
          (rampTime(velocity, limits.acceleration, limits.jerk) +
           rampTime(velocity, limits.deceleration, limits.jerk));
+}
+
+/// Whether a run is so short that cells of it would be shorter than what ways so far along tell
+/// apart.
+bool isTiny(const PlanTask &task, double length) noexcept { return length <= 1e-9 * task.way; }
+
+/// The limits of a run along a strip; where it bends, half of what the axes allow for each of what
+/// they share, which costs such a short run next to nothing.
+Limits limitsOf(const PlanTask &task, const Strip &strip) noexcept {
+  const bool bends = strip.across > 0.0;
+  const double allowed = (bends ? 0.5 : 1.0) / strip.along;
+  const double bent = bends ? 0.5 / strip.across : exact::kInfinity;
+  return {exact::sqrt(smaller(squareIn(strip, task.override), bent)),
+          smaller(strip.acceleration, allowed),
+          smaller(decelerationIn(strip, task.braking), allowed),
+          jerkIn(strip, task.jerk, task.braking)};
 }
 
 /// The greatest velocity that ramps reach within a length, at most that of the limits. [u/s]
@@ -72,15 +88,12 @@ void writeRamp(Writer &writer, double velocity, double acceleration, double jerk
 bool planAlone(Plan &plan, const Course &course) noexcept {
   const PlanTask &task = plan.task;
   const Strip &strip = stripAt(course, plan.firstStrip);
-  if (!startsAtRest(plan) || task.jerk == exact::kInfinity || !strip.stop || strip.across > 0.0 ||
-      task.end < strip.end)
-    return false;
-  const double allowed = 1.0 / strip.along;
-  const Limits limits{exact::sqrt(squareIn(strip, task.override)),
-                      smaller(strip.acceleration, allowed),
-                      smaller(decelerationIn(strip, task.braking), allowed),
-                      jerkIn(strip, task.jerk, task.braking)};
   const double length = strip.end - task.way;
+  const bool isFit = isTiny(task, length) ? strip.stop || plan.firstStrip + 1 == course.next
+                                          : strip.stop && !(strip.across > 0.0);
+  if (!isFit || !startsAtRest(plan) || task.jerk == exact::kInfinity || task.end < strip.end)
+    return false;
+  const Limits limits = limitsOf(task, strip);
   const double velocity = peakVelocity(length, limits);
   const double steady = length - rampsWay(velocity, limits);
   if (!(velocity > 0.0) || !exact::isfinite(rampsWay(velocity, limits)))
@@ -88,7 +101,7 @@ bool planAlone(Plan &plan, const Course &course) noexcept {
   plan.isAlone = true;
   plan.lastStrip = plan.firstStrip;
   plan.end = strip.end;
-  plan.stops = true;
+  plan.stops = strip.stop;
   plan.gate = strip.gate;
   Writer writer{plan, task.way};
   writeRamp(writer, velocity, limits.acceleration, limits.jerk, true);
