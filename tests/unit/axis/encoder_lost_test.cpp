@@ -1,27 +1,17 @@
 // Encoders that drivers do not hear all the time.
 #include "tests/unit/axis/axis_rig.hpp"
+#include "tests/unit/axis/idle_driver.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using stride::bus::StartUp;
 using stride::test::AxisRig;
 using stride::test::fresh;
 
 /// An encoder and no drive.
-class EncoderDriver final : public stride::bus::AxisDriver {
+class EncoderDriver final : public stride::test::IdleDriver {
 public:
-  void executeStart() override {}
-  void executeEnd() override {}
-  StartUp init(size_t /*drive*/, uint16_t & /*progress*/,
-               stride::bus::Message & /*message*/) override {
-    return StartUp::Started;
-  }
-  void reset(size_t /*drive*/) override {}
-  [[nodiscard]] stride::bus::DriveStatus status(size_t /*drive*/) const override { return {}; }
-  void command(size_t /*drive*/, const stride::bus::DriveCommand & /*command*/) override {}
-  [[nodiscard]] uint8_t controllerModes(size_t /*drive*/) const override { return 8; }
   [[nodiscard]] uint32_t encoder(size_t /*encoder*/) const override { return count; }
   [[nodiscard]] bool encoderWorks(size_t /*encoder*/) const override { return works; }
 

@@ -1,5 +1,6 @@
 // The restart of one drive of a group: what the golden project drive_reinit does not see.
 #include "tests/unit/axis/axis_rig.hpp"
+#include "tests/unit/axis/idle_driver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,19 +11,11 @@
 namespace {
 
 namespace state = stride::axis::state;
-using stride::bus::StartUp;
 using stride::test::AxisRig;
 
 /// A drive whose regulator stays on, whatever it is told.
-class StubbornDriver final : public stride::bus::AxisDriver {
+class StubbornDriver final : public stride::test::IdleDriver {
 public:
-  void executeStart() override {}
-  void executeEnd() override {}
-  StartUp init(size_t /*drive*/, uint16_t & /*progress*/,
-               stride::bus::Message & /*message*/) override {
-    return StartUp::Started;
-  }
-  void reset(size_t /*drive*/) override { ++resets; }
   [[nodiscard]] stride::bus::DriveStatus status(size_t /*drive*/) const override {
     stride::bus::DriveStatus status;
     status.communication = true;
@@ -33,9 +26,7 @@ public:
   void command(size_t /*drive*/, const stride::bus::DriveCommand &command) override {
     demanded = command.regulatorOn;
   }
-  [[nodiscard]] uint8_t controllerModes(size_t /*drive*/) const override { return 8; }
 
-  int resets = 0;
   bool demanded = false;
 };
 
@@ -85,15 +76,8 @@ TEST(Restart, GoesOnAfterAResetOfTheWholeGroup) {
 }
 
 /// Two drives that do at once what they are told.
-class WillingDriver final : public stride::bus::AxisDriver {
+class WillingDriver final : public stride::test::IdleDriver {
 public:
-  void executeStart() override {}
-  void executeEnd() override {}
-  StartUp init(size_t /*drive*/, uint16_t & /*progress*/,
-               stride::bus::Message & /*message*/) override {
-    return StartUp::Started;
-  }
-  void reset(size_t /*drive*/) override { ++resets; }
   [[nodiscard]] stride::bus::DriveStatus status(size_t drive) const override {
     stride::bus::DriveStatus status;
     status.communication = communicates;
@@ -104,10 +88,8 @@ public:
   void command(size_t drive, const stride::bus::DriveCommand &command) override {
     told[drive] = command;
   }
-  [[nodiscard]] uint8_t controllerModes(size_t /*drive*/) const override { return 8; }
 
   std::array<stride::bus::DriveCommand, 2> told{};
-  int resets = 0;
   bool communicates = true;
 };
 
