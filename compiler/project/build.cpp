@@ -12,6 +12,7 @@
 #include "compiler/source/content_hash.hpp"
 #include "compiler/source/workers.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
@@ -62,6 +63,7 @@ private:
   struct Unit {
     const TranslationUnit *source;
     std::string key;
+    size_t bytes;    ///< of all that it is compiled from
     fs::path object; ///< in the work folder
   };
 
@@ -179,19 +181,22 @@ private:
 
   // ---- compiling
 
-  // Everything a translation unit depends on besides the tool chain.
-  std::string keyOf(const TranslationUnit &unit) {
+  /// With a key of everything that it depends on.
+  Unit unitOf(const TranslationUnit &unit, size_t number) {
     ContentHash hash = base_;
     hash.add(uint64_t{unit.runsOnce}).add(uint64_t{precompilesHeaders(toolchain_, units_.size())});
-    for (const GeneratedFile *file : includes_->closureOf(unit.path))
+    size_t bytes = 0;
+    for (const GeneratedFile *file : includes_->closureOf(unit.path)) {
       hash.add(includes_->hashOf(*file));
-    return hash.hex();
+      bytes += file->text.size();
+    }
+    return {&unit, hash.hex(), bytes, work_->path() / fmt::format("{}.o", number)};
   }
 
   std::vector<Unit> units() {
     std::vector<Unit> units;
     for (const TranslationUnit &unit : units_)
-      units.push_back({&unit, keyOf(unit), work_->path() / fmt::format("{}.o", units.size())});
+      units.push_back(unitOf(unit, units.size()));
     return units;
   }
 
@@ -235,6 +240,9 @@ private:
     std::vector<Unit> kept;
     for (const Unit &unit : all)
       (cache_->mayHave(unit.key, ".o") ? kept : outdated).push_back(unit);
+    // What takes long comes first, so that no processor waits for it at the end.
+    std::stable_sort(outdated.begin(), outdated.end(),
+                     [](const Unit &a, const Unit &b) { return a.bytes > b.bytes; });
     std::vector<Unit> broken;
     // What is kept is looked at while the others are compiled.
     bool good = true;
