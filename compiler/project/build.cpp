@@ -301,9 +301,9 @@ private:
     command.push_back(toolchain_.compiler.string());
     command.insert(command.end(), flags.begin(), flags.end());
     const std::string include = toolchain_.installation.include.string();
-    // The same bytes wherever sources, cache and Stride lie.
+    // The assembler works meanwhile; the same bytes wherever sources, cache and Stride lie.
     command.insert(command.end(),
-                   {fmt::format("-ffile-prefix-map={}=.", sources_.string()),
+                   {"-pipe", fmt::format("-ffile-prefix-map={}=.", sources_.string()),
                     fmt::format("-ffile-prefix-map={}={}", include, kHeadersInLineTables), "-I",
                     sources_.string(), "-I", include});
     return command;
