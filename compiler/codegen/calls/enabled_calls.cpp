@@ -5,6 +5,7 @@
 #include "compiler/codegen/expressions/expressions.hpp"
 #include "compiler/codegen/places/places.hpp"
 #include "compiler/codegen/statements/assignments.hpp"
+#include "compiler/semantics/type_table.hpp"
 
 namespace stc::codegen {
 
