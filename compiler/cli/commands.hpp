@@ -86,8 +86,9 @@ struct TestOptions {
   std::string filter; ///< names of tests, with `*` and `?`; empty: all
   std::string junit;  ///< file for the results; empty: none
   bool list = false;  ///< only name the tests
+  bool bless = false; ///< write what the traces of [[test]] are now where they are expected
 };
-/// Builds the unit tests, then becomes stride-host, which runs them.
+/// Builds and runs the unit tests, then the simulations of [[test]].
 int testCommand(const ProjectOptions &options, const TestOptions &test);
 
 /// What `stride fmt` does with what it formats.

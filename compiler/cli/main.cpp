@@ -92,7 +92,8 @@ void declareDoc(CLI::App &app, Invocation &call) {
 }
 
 void declareTest(CLI::App &app, Invocation &call) {
-  CLI::App *test = app.add_subcommand("test", "Build and run the unit tests");
+  CLI::App *test = app.add_subcommand(
+      "test", "Build and run the unit tests, and compare the traces of [[test]]");
   addProjectOptions(*test, call.project, false);
   test->add_flag("--unchecked", call.project.unchecked,
                  "Leave out index, range, division and pointer checks");
@@ -100,6 +101,8 @@ void declareTest(CLI::App &app, Invocation &call) {
       ->type_name("GLOB");
   test->add_option("--junit", call.tests.junit, "Write the results as JUnit XML")
       ->type_name("FILE");
+  test->add_flag("--bless", call.tests.bless,
+                 "Write the traces of [[test]] that differ where they are expected");
   test->add_flag("--list", call.tests.list, "Only name the tests");
   test->callback([&call] { call.exitCode = testCommand(call.project, call.tests); });
 }

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <memory>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace stc::cli {
@@ -177,12 +178,29 @@ void holdSignalsOfRuns() {
   ::sigprocmask(SIG_BLOCK, &signals, nullptr);
 }
 
-int becomeHost(std::vector<std::string> arguments, const Output &output) {
+std::string hostProgram() {
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
-  const std::string program = installation ? installation->host.string() : missing;
+  return installation ? installation->host.string() : missing;
+}
+
+int runHost(std::vector<std::string> arguments, const Output &output) {
+  std::fflush(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0)
+    ::_exit(becomeHost(std::move(arguments), output));
+  int status = 0;
+  while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR)
+    continue;
+  if (child < 0)
+    return showError(Code::ToolchainMissing,
+                     fmt::format("no process can be started: {}", std::strerror(errno)), output);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+int becomeHost(std::vector<std::string> arguments, const Output &output) {
   arguments.insert(arguments.begin(), "stride"); // whose part it is, for its messages
-  return become(program, std::move(arguments), output);
+  return become(hostProgram(), std::move(arguments), output);
 }
 
 int checkCommand(const ProjectOptions &options) {

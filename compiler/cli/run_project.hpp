@@ -31,6 +31,12 @@ hostArgumentsOf(const ProjectOptions &options, const std::string &command,
 int become(const std::string &program, std::vector<std::string> arguments, const Output &output,
            std::string_view remedy = {});
 
+/// Where stride-host is.
+[[nodiscard]] std::string hostProgram();
+
+/// Runs stride-host, which writes to this program's outputs, and returns its exit code.
+int runHost(std::vector<std::string> arguments, const Output &output);
+
 /// Becomes stride-host; returns only when that fails. Before a run signals that it takes must be
 /// held: the first of them would end it.
 int becomeHost(std::vector<std::string> arguments, const Output &output);

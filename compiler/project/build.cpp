@@ -446,9 +446,7 @@ private:
     const std::optional<OutputFolder> folder = OutputFolder::open(project_.path());
     if (!folder || !folder->write(name, *linked_, 0777))
       return cannotWrite(result.application);
-    const fs::path ignore = "build/.gitignore";
-    return folder->hasFile(ignore) || folder->write(ignore, "*\n") ||
-           cannotWrite(project_.path() / ignore);
+    return hideBuilds(*folder) || cannotWrite(project_.path() / "build");
   }
 
   [[nodiscard]] Workers workers() const { return Workers(project_.program().settings.jobs); }

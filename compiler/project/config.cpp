@@ -70,6 +70,8 @@ public:
       readCncSection(cnc, config_, diagnostics_);
     for (const CheckedSection &csy : top.sections("csy", diagnostics_))
       config_.csy.push_back(readCsy(csy, diagnostics_));
+    for (const CheckedSection &test : top.sections("test", diagnostics_))
+      readTraceTest(test);
     for (const TomlNode &io : top.tables("io"))
       readIoDevice({io, ioSection(io), diagnostics_, &projectSchema()}, config_, diagnostics_);
     return std::move(config_);
@@ -190,6 +192,30 @@ private:
     config_.tasks.push_back(std::move(task));
   }
 
+  void readTraceTest(const CheckedSection &section) {
+    TraceTest test;
+    test.name = nameOf(section);
+    const TomlNode *trace = section.get("trace");
+    test.durationNs = parseInterval(section.text("for")).value_or(0);
+    if (!test.name.span.valid() || trace == nullptr || test.durationNs == 0 ||
+        !testNames_.add(lowerCase(test.name.text), test.name.span,
+                        fmt::format("two tests are named `{}`", test.name.text)))
+      return; // which has been reported
+    if (trace->children.empty())
+      diagnostics_
+          .report(Code::ConfigMissingKey, trace->span, "a test needs a variable to trace", "empty")
+          .help("name some: trace = [\"Main.n\"]");
+    for (const TomlNode &variable : trace->children)
+      test.trace.push_back(variable.text);
+    test.script = section.text("script");
+    if (const TomlNode *sets = section.get("set"))
+      for (const TomlNode &one : sets->children)
+        test.sets.push_back(one.text);
+    test.tolerance = section.real("tolerance", 0);
+    test.everyNs = parseInterval(section.text("every")).value_or(0);
+    config_.traceTests.push_back(std::move(test));
+  }
+
   /// What starts it: an interval, an event, or nothing.
   void readStart(const CheckedSection &section, TaskConfig &task) {
     if (section.has("kind") && section.get("kind") == nullptr)
@@ -236,6 +262,7 @@ private:
   PlcReader plc_{config_, diagnostics_};
   const TomlNode *groups_ = nullptr; ///< [[axes_group]]; null: there are none.
   Unique taskNames_{Code::ConfigDuplicateName, diagnostics_};
+  Unique testNames_{Code::ConfigDuplicateName, diagnostics_};
 };
 
 } // namespace

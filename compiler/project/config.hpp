@@ -145,6 +145,18 @@ struct IoConfig {
   AppConfig::IoDevice device;
 };
 
+/// [[test]]: a simulation whose trace `stride test` compares with `tests/NAME.csv` of the project.
+struct TraceTest {
+  ConfigName name;
+  int64_t durationNs = 0;         ///< virtual time
+  std::vector<std::string> trace; ///< variables; those in them where one is a structure
+  /// File in the project that says what is written and forced, and when; empty: nothing is.
+  std::string script;
+  std::vector<std::string> sets; ///< `[TIME,]NAME=VALUE`
+  double tolerance = 0;          ///< how far a number may be off
+  int64_t everyNs = 0;           ///< rows at multiples of it count; 0: all
+};
+
 /// [build] launcher: a program that starts the C++ compiler, here or elsewhere.
 enum class Launcher : uint8_t { None, Ccache, Distcc, Icecc };
 
@@ -176,7 +188,8 @@ struct ProjectConfig {
   std::vector<IoConfig> ioDevices;
   std::vector<CncSettings> cnc; ///< [[cnc]]
   std::vector<CsyConfig> csy;   ///< [[csy]]
-  bool incomplete = false;      ///< a drive, axis group or everything had to be left out
+  std::vector<TraceTest> traceTests;
+  bool incomplete = false; ///< a drive, axis group or everything had to be left out
 };
 
 /// Reads and checks stride.toml. What is wrong is reported with its place; what is right is

@@ -116,4 +116,9 @@ bool OutputFolder::remove(const fs::path &name) const {
   return good;
 }
 
+bool hideBuilds(const OutputFolder &project) {
+  const fs::path ignore = "build/.gitignore";
+  return project.hasFile(ignore) || project.write(ignore, "*\n");
+}
+
 } // namespace stc

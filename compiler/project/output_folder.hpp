@@ -41,6 +41,10 @@ private:
   int handle_ = -1;
 };
 
+/// Sees that git leaves out what is in the folder `build` below a project. False on failure
+/// (errno).
+[[nodiscard]] bool hideBuilds(const OutputFolder &project);
+
 } // namespace stc
 
 #endif // STRIDE_COMPILER_PROJECT_OUTPUT_FOLDER_HPP

@@ -161,6 +161,17 @@ constexpr std::array kCncStartParameters = {
     anyReal("U", "u"), anyReal("V", "u"), anyReal("W", "u"),
 };
 
+constexpr double kLongestTestNs = 1000 * kHourNs;
+constexpr std::array kTestParameters = {
+    identifier("name").needed(),
+    Parameter{"for", ParameterType::Interval, true, 1000, kLongestTestNs},
+    Parameter{"trace", ParameterType::NameList, true},
+    text("script"),
+    Parameter{"set", ParameterType::NameList},
+    real("tolerance", 0, 1e300),
+    duration("every"),
+};
+
 constexpr SectionSchema kProject = {"project", "the project",      "project",
                                     false,     kProjectParameters, {}};
 /// Its keys are whatever the library's parameters are called.
@@ -188,6 +199,7 @@ constexpr SectionSchema kCncStart = {"start", "the start",         "cnc.start",
                                      false,   kCncStartParameters, {}};
 constexpr std::array<const SectionSchema *, 1> kCncSections = {&kCncStart};
 constexpr SectionSchema kCnc = {"cnc", "a CNC program", "cnc", true, kCncParameters, kCncSections};
+constexpr SectionSchema kTest = {"test", "a test", "test", true, kTestParameters, {}};
 constexpr std::array<Choice, 4> kSeverities = {
     {{"error", static_cast<int64_t>(Severity::Error)},
      {"warning", static_cast<int64_t>(Severity::Warning)},
@@ -224,9 +236,10 @@ struct TopSection {
                  &kImage,         &kRetain, &kFiles,
                  &kFormat,        &kTask,   &anyBusSection(),
                  &anyIoSection(), &kAxis,   &axesGroupSchema(),
-                 &csySchema(),    &kCnc,    &kBuild},
+                 &csySchema(),    &kCnc,    &kBuild,
+                 &kTest},
         top{"", "stride.toml", "", false, {}, sections} {}
-  std::array<const SectionSchema *, 15> sections;
+  std::array<const SectionSchema *, 16> sections;
   SectionSchema top;
 };
 
