@@ -232,6 +232,7 @@ void generateUnits(Context &context, const std::vector<Generator> &others, Files
   std::vector<Generator> parts = others;
   parts.emplace_back([&context](Context &, Files &) { context.addressed.prepare(); });
   parts.emplace_back([&context](Context &, Files &) { context.repetition.prepare(); });
+  parts.emplace_back([&context](Context &, Files &) { context.pointers.prepare(); });
   std::vector<Files> made(parts.size());
   std::vector<GeneratedFile> heads(headers.size());
   {

@@ -15,9 +15,9 @@ namespace {
 /// Copying it copies variables of blocks.
 bool holdsInstance(const Type *type) {
   return anyHeld(type, [](const Type *t, const VarSymbol *) {
-    return t->kind == TypeKind::Structure ? Held::Inside
-           : isElementary(t)              ? Held::Over
-                                          : Held::Found;
+    if (t->kind == TypeKind::Structure)
+      return Held::Inside;
+    return isElementary(t) || t->kind == TypeKind::Pointer ? Held::Over : Held::Found;
   });
 }
 
@@ -76,19 +76,25 @@ std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol 
       (!facts.called.empty() && pou->isBlock() && !standsAlone(pou)))
     return {};
   std::vector<const VarSymbol *> result;
-  for (const VarSymbol *v : facts.written) {
-    const bool member = v->section == Section::Local || v->section == Section::Input ||
-                        v->section == Section::Output;
-    if (v->owner != pou || !member || v->isConstant || v->decl == nullptr ||
-        v->decl->address != nullptr || v->isBit || analysis_.isShared(v) || !isScalar(v->type) ||
-        contains(result, v) || contains<const Symbol *>(facts.foreign, v) ||
-        contains(facts.indirect, underlying(v->type)))
-      continue;
-    result.push_back(v);
-  }
+  for (const VarSymbol *v : facts.written)
+    if (!contains(result, v) && canBeLocal(v, pou, facts))
+      result.push_back(v);
   if (!facts.called.empty() && result.size() > kLocalsOverCalls)
     result.resize(kLocalsOverCalls);
   return result;
+}
+
+bool LoopLocals::canBeLocal(const VarSymbol *v, const PouSymbol *pou, const Facts &facts) {
+  const bool isMember =
+      v->section == Section::Local || v->section == Section::Input || v->section == Section::Output;
+  if (v->owner != pou || !isMember || v->isConstant || v->decl == nullptr ||
+      v->decl->address != nullptr || v->isBit || analysis_.isShared(v))
+    return false;
+  // A pointer that each call puts back is quicker where it is.
+  const bool isPointer =
+      v->type->kind == TypeKind::Pointer && facts.called.empty() && pointers_.areTyped();
+  return (isPointer || isScalar(v->type)) && !contains<const Symbol *>(facts.foreign, v) &&
+         !contains(facts.indirect, underlying(v->type));
 }
 
 bool LoopLocals::countsAlone(const ForStmt *loop, const PouSymbol *pou) {
@@ -102,7 +108,8 @@ bool LoopLocals::countsAlone(const ForStmt *loop, const PouSymbol *pou) {
   // A method shares the variables of its block with whatever it calls.
   const bool shares =
       contains(facts.called, pou) || (!facts.called.empty() && pou->isBlock() && !standsAlone(pou));
-  return !facts.opaque && !shares && !contains(facts.written, v) &&
+  // What an index is proven by does not rest on where pointers lead.
+  return !facts.opaque && !facts.follows && !shares && !contains(facts.written, v) &&
          !contains<const Symbol *>(facts.foreign, v) &&
          !contains(facts.indirect, underlying(v->type));
 }
@@ -184,7 +191,7 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
     if (e->constant != nullptr)
       return;
     if (holdsInstance(e->type) && e->kind != ExprKind::Name && e->kind != ExprKind::Member &&
-        e->kind != ExprKind::Index) {
+        e->kind != ExprKind::Index && e->kind != ExprKind::Deref) {
       facts.opaque = true;
       return;
     }
@@ -232,11 +239,27 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
     case ExprKind::Call:
       call(as<CallExpr>(e), facts);
       return;
-    default: // pointers, direct addresses
+    case ExprKind::Deref:
+      deref(as<DerefExpr>(e), facts);
+      e = as<DerefExpr>(e)->base;
+      continue;
+    default: // direct addresses
       facts.opaque = true;
       return;
     }
   }
+}
+
+/// A pointer leads to a variable of its type, or nobody knows where.
+void LoopLocals::deref(const DerefExpr *e, Facts &facts) {
+  const Type *pointer = e->base->type;
+  if (pointer == nullptr || pointer->kind != TypeKind::Pointer ||
+      !pointers_.leadTo(typeAs<PointerType>(pointer)->pointee)) {
+    facts.opaque = true;
+    return;
+  }
+  facts.follows = true;
+  facts.indirect.push_back(underlying(typeAs<PointerType>(pointer)->pointee));
 }
 
 void LoopLocals::call(const CallExpr *e, Facts &facts) {
@@ -258,6 +281,7 @@ void LoopLocals::call(const CallExpr *e, Facts &facts) {
   // A pure function writes its own variables only; what counts is which others it reads.
   const Facts &inner = body(e->pou);
   facts.opaque = facts.opaque || inner.opaque;
+  facts.follows = facts.follows || inner.follows;
   facts.foreign.insert(facts.foreign.end(), inner.foreign.begin(), inner.foreign.end());
 }
 
@@ -295,6 +319,7 @@ void LoopLocals::instanceCall(const CallExpr *e, Facts &facts) {
   arguments(e, facts);
   const Facts &inner = body(e->pou);
   facts.opaque = facts.opaque || inner.opaque;
+  facts.follows = facts.follows || inner.follows;
   facts.foreign.insert(facts.foreign.end(), inner.foreign.begin(), inner.foreign.end());
   facts.indirect.insert(facts.indirect.end(), inner.indirect.begin(), inner.indirect.end());
   facts.called.insert(facts.called.end(), inner.called.begin(), inner.called.end());

@@ -5,6 +5,7 @@
 // hand-written loops.
 
 #include "compiler/codegen/analysis/analysis.hpp"
+#include "compiler/codegen/analysis/typed_pointers.hpp"
 
 #include <unordered_map>
 #include <vector>
@@ -13,10 +14,11 @@ namespace stc::codegen {
 
 class LoopLocals {
 public:
-  explicit LoopLocals(Analysis &analysis) : analysis_(analysis) {}
+  LoopLocals(Analysis &analysis, TypedPointers &pointers)
+      : analysis_(analysis), pointers_(pointers) {}
 
-  /// The elementary variables of `pou` that the loop writes and nothing else touches during it; in
-  /// the order of their first write.
+  /// The elementary variables and pointers of `pou` that the loop writes and nothing else touches
+  /// during it; in the order of their first write.
   [[nodiscard]] std::vector<const VarSymbol *> of(const ast::Stmt *loop, const PouSymbol *pou);
   /// Nothing in the body of the loop changes its variable, whatever it calls.
   [[nodiscard]] bool countsAlone(const ast::ForStmt *loop, const PouSymbol *pou);
@@ -24,13 +26,15 @@ public:
 private:
   /// What a piece of code touches.
   struct Facts {
-    /// It calls, jumps or follows pointers: anything may happen.
+    /// It calls, jumps or follows pointers that may lead anywhere: anything may happen.
     bool opaque = false;
+    /// It follows pointers.
+    bool follows = false;
     /// Variables named directly on the left of an assignment.
     std::vector<const VarSymbol *> written;
     /// Members of other instances (perhaps of this one by another way).
     std::vector<const Symbol *> foreign;
-    /// Types of the elementary variables behind in-outs and references.
+    /// Types of the variables behind in-outs, references and pointers.
     std::vector<const Type *> indirect;
     /// The blocks whose bodies and methods are called: their variables are in reach.
     std::vector<const PouSymbol *> called;
@@ -43,10 +47,13 @@ private:
   void call(const ast::CallExpr *call, Facts &facts);
   void arguments(const ast::CallExpr *call, Facts &facts);
   void instanceCall(const ast::CallExpr *call, Facts &facts);
+  void deref(const ast::DerefExpr *expr, Facts &facts);
+  [[nodiscard]] bool canBeLocal(const VarSymbol *v, const PouSymbol *pou, const Facts &facts);
   void target(const ast::Expr *expr, Facts &facts);
   const Facts &body(const PouSymbol *pou);
 
   Analysis &analysis_;
+  TypedPointers &pointers_;
   std::unordered_map<const PouSymbol *, Facts> bodies_;
 };
 

@@ -9,6 +9,7 @@
 #include "compiler/codegen/analysis/loop_locals.hpp"
 #include "compiler/codegen/analysis/plain_calls.hpp"
 #include "compiler/codegen/analysis/repetition.hpp"
+#include "compiler/codegen/analysis/typed_pointers.hpp"
 #include "compiler/codegen/cpp/layout.hpp"
 #include "compiler/codegen/cpp/names.hpp"
 #include "compiler/codegen/cpp/roots.hpp"
@@ -31,19 +32,22 @@ struct Context {
   Names names;
   Layouts layouts;
   Analysis analysis;
+  TypedPointers pointers;
   LoopLocals loopLocals;
   Addressed addressed;
   PlainCalls plainCalls;
   Repetition repetition;
 
   Context(const Program &p, const Library *library)
-      : program(p), own(library), names(p), layouts(p, library), analysis(p), loopLocals(analysis),
-        addressed(p, library), plainCalls(p, addressed), repetition(p, library) {}
+      : program(p), own(library), names(p), layouts(p, library), analysis(p), pointers(p, library),
+        loopLocals(analysis, pointers), addressed(p, library), plainCalls(p, addressed),
+        repetition(p, library) {}
   /// Goes on with the names that `whole` has given and what it has found out.
   Context(const Context &whole)
       : program(whole.program), own(whole.own), names(whole.names), layouts(whole.layouts),
-        analysis(whole.program), loopLocals(analysis), addressed(whole.addressed),
-        plainCalls(whole.program, addressed), repetition(whole.repetition) {}
+        analysis(whole.program), pointers(whole.pointers), loopLocals(analysis, pointers),
+        addressed(whole.addressed), plainCalls(whole.program, addressed),
+        repetition(whole.repetition) {}
   Context &operator=(const Context &) = delete;
 };
 
