@@ -1,5 +1,5 @@
-// A motion that rests next to the end of what is known of its path, by a few units in the last
-// place or by any small way: it comes to the end all the same.
+// A motion that rests anywhere on its path, next to the end of what is known of it by a few units
+// in the last place, before strips of any lengths and limits: it comes to the end all the same.
 #include "runtime/numeric/path/motion.hpp"
 
 #include "motion_problems.hpp"
@@ -38,6 +38,44 @@ Strip randomStrip(Random &random) {
 
 } // namespace
 
+TEST(PathRounding, IsAtTheGateWhenItIsAtItsWay) {
+  auto motion = std::make_unique<Motion>();
+  reset(*motion, {LawKind::Jerk, 1e30, 1, false});
+  motion->way = motion->course.begin = 45101.127919830367;
+  Strip strip{};
+  strip.feed = strip.endFeed = 135.967;
+  strip.ceiling = strip.endCeiling = stride::exact::kInfinity;
+  strip.acceleration = 4992.41;
+  strip.deceleration = 0.0219427; // it rounds the last piece away
+  strip.stop = strip.gate = true;
+  strip.end = 45101.127919929197;
+  ASSERT_TRUE(extend(*motion, strip));
+  for (int calls = 0; calls < 100 && motion->way < strip.end; ++calls) {
+    think(*motion, 64);
+    move(*motion, 0.001, true);
+  }
+  EXPECT_EQ(motion->way, strip.end);
+  EXPECT_TRUE(motion->gate);
+}
+
+TEST(PathRounding, GoesNoFurtherThanTheEndOfItsRun) {
+  auto motion = std::make_unique<Motion>();
+  reset(*motion, {LawKind::Jerk, 31610.6, 1, false});
+  motion->way = motion->course.begin = 28912.477476558855;
+  Strip strip{};
+  strip.feed = strip.endFeed = 756.355;
+  strip.ceiling = strip.endCeiling = stride::exact::kInfinity;
+  strip.acceleration = 438.701;
+  strip.deceleration = 0.0334656;
+  strip.end = 28912.477477145792;
+  ASSERT_TRUE(extend(*motion, strip));
+  for (int calls = 0; calls < 100 && motion->way < strip.end; ++calls) {
+    think(*motion, 64);
+    move(*motion, 0.001, true);
+  }
+  EXPECT_EQ(motion->way, strip.end);
+}
+
 TEST(PathRounding, ComesToTheEndFromWhereverItRests) {
   Random random(3);
   auto motion = std::make_unique<Motion>();
@@ -55,11 +93,42 @@ TEST(PathRounding, ComesToTheEndFromWhereverItRests) {
     ASSERT_TRUE(extend(*motion, strip));
     int calls = 0;
     while (motion->way < strip.end && ++calls < 20000) {
-      comeByRounding(*motion);
       think(*motion, 64);
       move(*motion, 0.001, true);
     }
     ASSERT_EQ(motion->way, strip.end);
     EXPECT_EQ(motion->gate, strip.gate);
+  }
+}
+
+TEST(PathRounding, ComesToTheEndOfAnyStrips) {
+  Random random(5);
+  auto motion = std::make_unique<Motion>();
+  for (int i = 0; i < casesOf(500); ++i) {
+    const double jerk = random.chance(0.3) ? 1e30 : random.magnitude(2, 6);
+    reset(*motion, {LawKind::Jerk, jerk, 1, random.chance(0.5)});
+    motion->way = motion->course.begin = random.chance(0.5) ? 0.0 : random.magnitude(-3, 4.8);
+    const auto count = 1 + static_cast<int>(random.below(6));
+    SCOPED_TRACE(testing::Message() << "case " << i << " from " << motion->way);
+    double end = motion->way;
+    for (int k = 0; k < count; ++k) {
+      Strip strip = randomStrip(random);
+      strip.gate = false;
+      end = std::nextafter(end + random.magnitude(-9, 1), 1e9);
+      strip.end = end;
+      ASSERT_TRUE(extend(*motion, strip));
+    }
+    // Many are slow by their limits, which is not judged here: only whether they rest.
+    int calls = 0;
+    int atRest = 0;
+    while (motion->way < end && atRest < 5000 && ++calls < 20000) {
+      think(*motion, 64);
+      const double before = motion->way;
+      const WayState state = move(*motion, 0.001, true);
+      ASSERT_GE(motion->way, before);
+      atRest = state.velocity > 0.0 || motion->way > before ? 0 : atRest + 1;
+    }
+    ASSERT_LT(atRest, 5000) << "at " << motion->way << " of " << end;
+    ASSERT_LE(motion->way, end);
   }
 }

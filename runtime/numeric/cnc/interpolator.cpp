@@ -277,7 +277,6 @@ void drive(Interpolator &interpolator, const Command &command) noexcept {
   if (command.emergencyStop)
     path::freeze(motion);
   const double before = motion.way;
-  path::comeByRounding(motion);
   path::think(motion, command.budget);
   Progress &progress = interpolator.progress;
   progress.motion = {before, 0.0, 0.0, 0.0};

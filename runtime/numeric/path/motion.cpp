@@ -29,11 +29,16 @@ bool waitsForLaw(const Motion &motion) noexcept {
 
 WayState restAt(double way) noexcept { return {way, 0.0, 0.0, 0.0}; }
 
-/// Whether the motion is at a gate already, though its last piece has some time left in which it
-/// goes no further but for rounding: who waits there finds it at the gate, and lets it go on.
+/// Whether the motion is at a gate already, though the last pieces before it have some time left in
+/// which it goes no further but for rounding: who waits there finds it at the gate, and lets it go
+/// on.
 bool isAtGate(Motion &motion, double way) noexcept {
   Law &law = motion.law;
-  return (markAt(law, law.first) & kGate) != 0 && way >= endAt(law, law.first);
+  for (int64_t k = law.first; k < law.next && way >= endAt(law, k); ++k) {
+    if ((markAt(law, k) & kRest) != 0)
+      return (markAt(law, k) & kGate) != 0;
+  }
+  return false;
 }
 
 /// Leaves the first piece of the law, `left` of whose time is over.
@@ -102,20 +107,6 @@ WayState move(Motion &motion, double time, bool pass) noexcept {
     }
   }
   return restAt(motion.way);
-}
-
-void comeByRounding(Motion &motion) noexcept {
-  constexpr double kUnits = 5e-14; // 225 units in the last place; plans fail up to 160
-  const Course &course = motion.course;
-  if (!isAtRest(motion) || motion.wish.stop || course.first == course.next)
-    return;
-  const Strip &strip = stripAt(course, stripOf(course, motion.way));
-  const double left = strip.end - motion.way;
-  if (!(left > 0.0 && left <= kUnits * motion.way))
-    return;
-  motion.way = strip.end;
-  motion.resting = strip.stop;
-  motion.gate = strip.gate;
 }
 
 void freeze(Motion &motion) noexcept {

@@ -129,11 +129,6 @@ inline const MotionSettings &settingsAt(const Motion &motion, int64_t piece) noe
 /// Whether the law has come to its end. (A plan may be under way.)
 inline bool isAtRest(const Motion &motion) noexcept { return motion.law.first == motion.law.next; }
 
-/// Where it rests, and is not to stop, next to the end of a strip that is ahead by rounding only:
-/// it is there now. With limited jerk no plan leads over that way. To be called before think(), by
-/// who also moves it.
-void comeByRounding(Motion &motion) noexcept;
-
 /// Goes on by `time` and says where the motion is then. With `pass`, it goes on beyond rests of the
 /// path at once; else it stays there. [s] in
 WayState move(Motion &motion, double time, bool pass) noexcept;

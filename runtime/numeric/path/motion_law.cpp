@@ -187,6 +187,8 @@ bool write(Motion &motion) noexcept {
   bool done = false;
   if (hasJerk(motion)) {
     push(motion, pieceOf(plan, static_cast<int32_t>(motion.writing)));
+    double &end = endAt(motion.law, lastPiece(motion));
+    end = exact::smaller(end, plan.end); // ways of pieces are added up, and rounded
     done = ++motion.writing == pieceCount(plan);
   } else {
     pushStrip(motion, motion.writing);

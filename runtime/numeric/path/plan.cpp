@@ -83,7 +83,7 @@ void repeatWithCare(Plan &plan) noexcept {
 }
 
 /// After a failure: with a shorter run, if there were too few cells, with more care, or without a
-/// ramp.
+/// ramp. From rest at last without cells, which always leads to the end of the strip.
 void tryAgain(Plan &plan, const Course &course) noexcept {
   if (plan.phase == kCellPass && plan.cuts < kMostCuts && !plan.task.whole) {
     plan.state = PlanState::Working;
@@ -94,6 +94,8 @@ void tryAgain(Plan &plan, const Course &course) noexcept {
     repeatWithCare(plan);
   } else if (plan.ramp > 0) {
     beginWithoutRamp(plan, course);
+  } else {
+    (void)planFirstStrip(plan, course);
   }
 }
 
@@ -108,8 +110,8 @@ void begin(Plan &plan, const Course &course, const PlanTask &task) noexcept {
   plan.state = course.first < course.next && task.way < endOf(course) ? PlanState::Working
                                                                       : PlanState::Failed;
   beginPasses(plan, course, firstCut(plan.task));
-  if (plan.state == PlanState::Working && planAlone(plan, course))
-    plan.state = PlanState::Done;
+  if (plan.state == PlanState::Working)
+    (void)planAlone(plan, course);
 }
 
 int32_t work(Plan &plan, const Course &course, int32_t budget) noexcept {

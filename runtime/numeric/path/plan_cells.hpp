@@ -93,6 +93,10 @@ double steadyUntil(const Plan &plan, const Course &course, int64_t strip) noexce
 /// Whether the run is one strip from rest to rest without a curve; plans it then, in closed form.
 bool planAlone(Plan &plan, const Course &course) noexcept;
 
+/// From rest, up to the end of the first strip or the run's, in closed form, whatever the strip is;
+/// half of what axes allow where it bends. False: from no rest, or without a limit of the jerk.
+bool planFirstStrip(Plan &plan, const Course &course) noexcept;
+
 /// Steps of a pass, for at most `budget` of them, which become less. A step says whether the pass
 /// is done. True: it is, or the plan has failed.
 template <bool (*kStep)(Plan &, const Course &) noexcept>
