@@ -303,7 +303,7 @@ void expectCurve(const PathObject &o, const Curve &c) {
     Point3 wanted = c.at(t);
     if (c.flat)
       is[2] = wanted[2] = 0;
-    EXPECT_LT(gapBetween(is, wanted), 1e-7) << "part " << t;
+    EXPECT_LT(gapBetween(is, wanted), 2e-6) << "part " << t;
   }
 }
 
