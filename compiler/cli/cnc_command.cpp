@@ -4,7 +4,7 @@
 #include "compiler/assets/cnc/nc_source.hpp"
 #include "compiler/cli/cnc_drawing.hpp"
 #include "compiler/cli/cnc_edit.hpp"
-#include "compiler/cli/cnc_generation.hpp"
+#include "compiler/cli/cnc_project.hpp"
 #include "compiler/cli/cnc_run.hpp"
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/file_system.hpp"
@@ -47,7 +47,7 @@ struct LoadedCnc {
                   : readCnc(source, diagnostics);
     if (!program || expanded)
       return;
-    program->settings.softMotion3 = isSoftMotion3(path, options.softMotion);
+    program->settings = projectSettings(path, options.softMotion);
     setVariables(*program, values, diagnostics);
   }
 
@@ -132,11 +132,14 @@ std::string writeQueue(const std::string &file, const std::string &out, const Cn
                      std::max<size_t>(objects->size(), 2) * sizeof(stride::cnc::PathObject));
 }
 
-/// What the options say of path processors.
+/// What the options say of path processors and corners counts more than what the project says.
 void setProcessors(const CncOptions &options, CncSettings &settings) {
-  settings.preprocess = options.preprocess.processors;
-  settings.toolRadius = options.preprocess.toolRadius;
-  settings.angleTolerance = options.motion.angleTolerance;
+  constexpr double kAngleTolerance = 0.001; // [degrees]
+  if (options.preprocess.processors)
+    settings.preprocess = *options.preprocess.processors;
+  settings.toolRadius = options.preprocess.toolRadius.value_or(settings.toolRadius);
+  settings.angleTolerance =
+      options.motion.angleTolerance.value_or(settings.angleTolerance.value_or(kAngleTolerance));
 }
 
 std::string infoText(const std::string &path, const CncProgram &program, Diagnostics &diagnostics) {
@@ -223,9 +226,11 @@ int cncMotion(const CncOptions &options) {
       program.settings.velocity = options.motion.velocity;
     if (options.motion.acceleration > 0)
       program.settings.acceleration = program.settings.deceleration = options.motion.acceleration;
+    CncOptions driven = options;
+    driven.motion.angleTolerance = program.settings.angleTolerance;
     loaded.check();
     if (!loaded.diagnostics.hasErrors())
-      (options.action == CncAction::Run ? runCnc : plotCnc)(path, program, options,
+      (options.action == CncAction::Run ? runCnc : plotCnc)(path, program, driven,
                                                             loaded.diagnostics, says);
   }
   const int exitCode = loaded.finish(options.output);
@@ -245,14 +250,19 @@ int cncQueue(const CncOptions &options) {
     CncSettings &settings = program.settings;
     settings.compile = CncCompile::QueueFile;
     setProcessors(options, settings);
-    settings.stepSuppress = options.queue.stepSuppress;
-    const auto given = [](double value) { return value > 0 ? std::optional(value) : std::nullopt; };
-    settings.velocity = given(options.motion.velocity);
-    settings.acceleration = given(options.motion.acceleration);
-    settings.deceleration = given(options.queue.deceleration);
-    std::copy(std::begin(options.queue.start), std::end(options.queue.start),
-              std::begin(settings.start.coordinate));
-    settings.start.axes = options.queue.axes;
+    settings.stepSuppress = settings.stepSuppress || options.queue.stepSuppress;
+    const auto take = [](double given, std::optional<double> &value) {
+      if (given > 0)
+        value = given;
+    };
+    take(options.motion.velocity, settings.velocity);
+    take(options.motion.acceleration, settings.acceleration);
+    take(options.queue.deceleration, settings.deceleration);
+    if (options.queue.axes != 0) {
+      std::copy(std::begin(options.queue.start), std::end(options.queue.start),
+                std::begin(settings.start.coordinate));
+      settings.start.axes = options.queue.axes;
+    }
     loaded.check();
     if (!loaded.diagnostics.hasErrors())
       says = writeQueue(path, options.out, program, loaded.diagnostics);

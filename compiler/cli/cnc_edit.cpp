@@ -3,7 +3,7 @@
 #include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/assets/cnc_edit/reverse.hpp"
 #include "compiler/assets/cnc_edit/transform.hpp"
-#include "compiler/cli/cnc_generation.hpp"
+#include "compiler/cli/cnc_project.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/source/sources.hpp"
 
@@ -57,7 +57,7 @@ CncStart startOf(const CncOptions &options) {
   std::copy(std::begin(options.move.places), std::end(options.move.places),
             std::begin(start.position.coordinate));
   start.position.axes = options.move.axes;
-  start.softMotion3 = isSoftMotion3(options.files.front(), options.softMotion);
+  start.softMotion3 = projectSettings(options.files.front(), options.softMotion).softMotion3;
   return start;
 }
 

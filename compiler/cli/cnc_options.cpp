@@ -45,10 +45,10 @@ std::string readAxes(const std::string &text, bool positive, double (&values)[12
   return {};
 }
 
-/// Reads `tool,loops`. What is wrong, or nothing.
+/// Reads `tool,loops`, or `none`. What is wrong, or nothing.
 std::string readProcessors(const std::string &text, std::vector<CncProcessor> &processors) {
   processors.clear();
-  for (size_t at = 0; at <= text.size();) {
+  for (size_t at = 0; at <= text.size() && text != "none";) {
     const size_t end = std::min(text.find(',', at), text.size());
     const std::optional<CncProcessor> processor = cncProcessor(text.substr(at, end - at));
     if (!processor)
@@ -140,9 +140,10 @@ private:
             ->add_option_function<std::string>(
                 "--preprocess",
                 [&options](const std::string &text) {
-                  (void)readProcessors(text, options.processors);
+                  (void)readProcessors(text, options.processors.emplace());
                 },
-                "Path processors before all else: tool, loops, then smooth or round; tool,loops")
+                "Path processors before all else: tool, loops, then smooth or round; tool,loops; "
+                "none (default: as [[cnc]] of the file's project)")
             ->check(CLI::Validator(
                 [](std::string &text) {
                   std::vector<CncProcessor> ignored;
@@ -151,7 +152,8 @@ private:
                 std::string()))
             ->type_name("NAMES");
     command
-        ->add_option("--tool-radius", options.toolRadius, "Of tool, u: is added to D (default: 0)")
+        ->add_option("--tool-radius", options.toolRadius,
+                     "Of tool, u: is added to D (default: as [[cnc]], else 0)")
         ->check(numberFrom(0, true))
         ->type_name("N")
         ->needs(processors);
@@ -202,7 +204,7 @@ private:
   static void angleTolerance(CLI::App *command, CncMotionOptions &motion) {
     command
         ->add_option("--angle-tolerance", motion.angleTolerance,
-                     "Corners that turn less are none, degrees (default: 0.001)")
+                     "Corners that turn less are none, degrees (default: as [[cnc]], else 0.001)")
         ->check(numberFrom(0, true, 180))
         ->type_name("DEG");
   }

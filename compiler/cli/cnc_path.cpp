@@ -46,7 +46,7 @@ public:
       if (options.maxAcceleration[axis] > 0)
         acceleration = std::min(acceleration, options.maxAcceleration[axis]);
     blender_->rules = {kInfinite, options.blend, kInfinite, acceleration,
-                       options.angleTolerance * M_PI / 180};
+                       options.angleTolerance.value_or(0) * M_PI / 180};
   }
 
   /// The program has one more.
@@ -144,7 +144,7 @@ bool takeAll(const CncProgram &program, Diagnostics &diagnostics, Chain &chain) 
 
 /// The corner rule of SMC_CheckVelocities, for the whole path.
 void checkCorners(CncPath &path, const CncMotionOptions &options) {
-  const CornerRules rules{options.angleTolerance * M_PI / 180, -1.0};
+  const CornerRules rules{options.angleTolerance.value_or(0) * M_PI / 180, -1.0};
   PathObject *before = nullptr;
   for (PathObject &object : path.objects) {
     path.axes = static_cast<uint16_t>(path.axes | object.end.axes);

@@ -187,7 +187,8 @@ enum class CncAction {
 struct CncMotionOptions {
   double blend = 0; ///< Of corners: distance of the curve from the corner; 0: they stay. [u]
   double merge = 0; ///< Of lines: how far the result may be off; 0: all stay. [u]
-  double angleTolerance = 0.001;          ///< Up to there, corners are none. [degrees]
+  std::optional<double> angleTolerance;   ///< Up to there, corners are none; nothing: as the
+                                          ///< project says, else 0.001. [degrees]
   std::string velocityMode = "trapezoid"; ///< or `sigmoid`, `quadratic`
   double jerk = 0;                        ///< of `quadratic` [u/s³]
   double velocity = 0;                    ///< of programs that begin without F; 0: none [u/s]
@@ -208,8 +209,8 @@ struct CncQueueOptions {
 
 /// Path processors that `info`, `run`, `plot` and `queue` put the path through.
 struct CncProcessorOptions {
-  std::vector<CncProcessor> processors;
-  double toolRadius = 0; ///< of tool correction, is added to D [u]
+  std::optional<std::vector<CncProcessor>> processors; ///< nothing: as the project says
+  std::optional<double> toolRadius; ///< of tool correction, is added to D; likewise [u]
 };
 
 /// How a path is moved.

@@ -183,7 +183,7 @@ void readCncSection(const CheckedSection &section, ProjectConfig &config,
   settings.span = file->span;
   settings.compile =
       static_cast<CncCompile>(section.choice("compile", static_cast<int64_t>(CncCompile::Program)));
-  settings.angleTolerance = section.real("angle_tolerance", 0);
+  settings.angleTolerance = valueOf(section, "angle_tolerance");
   settings.queueBytes = static_cast<uint32_t>(section.integer("queue_bytes", 0));
   if (const TomlNode *bytes = section.get("queue_bytes"))
     settings.queueBytesSpan = bytes->span;

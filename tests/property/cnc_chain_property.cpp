@@ -336,7 +336,8 @@ void restartCase(uint64_t seed) {
   EXPECT_NE(fresh.interpolator->bDone, 0);
 }
 
-/// Other programs are appended while blocks may still be at work: nothing is left out in between.
+/// Other programs are appended while blocks may still be at work, or after an abort: nothing is
+/// left out in between.
 void appendCase(uint64_t seed) {
   Random random(seed);
   const char *const chains[] = {"", "s", "r", "m", "x", "c", "R", "ms", "Rcs", "rx"};
@@ -362,8 +363,9 @@ void appendCase(uint64_t seed) {
         take(chain.last(), path);
     }
     Inputs in;
-    if (program < 2)
-      feed(chain, in, false);
+    in.decodes = in.processes = 1;
+    if (program < 2) // an abort loses nothing of what blocks have held back
+      feed(chain, in, false, random.chance(0.5));
     chain.program.diReadPos = 0;
   }
   take(chain.last(), path);

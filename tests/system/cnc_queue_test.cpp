@@ -127,5 +127,52 @@ TEST_F(CncQueue, RefusesWrongOptions) {
   EXPECT_NE(queue({"-o", "./a.cnc"}).exitCode, 0) << "the program itself";
 }
 
+/// What [[cnc]] of the project says is what options say, and options say more.
+TEST_F(CncQueue, ReadsTheSectionOfTheProject) {
+  const std::string text = "N10 G41 D0\nN20 G1 X30\n/N30 X40\nN40 Y20\nN50 G40\nN60 G0 X50\n";
+  const std::string section =
+      "[[cnc]]\nfile = \"parts/../a.cnc\"\ncompile = \"queue\"\ndefault_velocity = 40\n"
+      "default_acceleration = 300\ndefault_deceleration = 200\nangle_tolerance = 100\n"
+      "preprocess = [\"tool\"]\ntool_radius = 2\nstep_suppress = true\nstart = { X = 5, Q = 1 }\n";
+  write(text);
+  const std::vector<std::string> all = {"-o",
+                                        "a.queue",
+                                        "--velocity",
+                                        "40",
+                                        "--acceleration",
+                                        "300",
+                                        "--deceleration",
+                                        "200",
+                                        "--angle-tolerance",
+                                        "100",
+                                        "--preprocess",
+                                        "tool",
+                                        "--tool-radius",
+                                        "2",
+                                        "--step-suppress",
+                                        "--start",
+                                        "X=5,Q=1"};
+  ASSERT_EQ(queue(all).exitCode, 0);
+  const std::string said = bytes();
+  ASSERT_EQ(queue({"-o", "a.queue", "--velocity", "7", "--start", "X=1"}).exitCode, 0);
+  const std::string plain = bytes();
+  EXPECT_NE(said, plain);
+  writeFile(scratch_.path() / "stride.toml", section);
+  ASSERT_EQ(queue({"-o", "a.queue"}).exitCode, 0);
+  EXPECT_EQ(bytes(), said);
+  ASSERT_EQ(queue(all).exitCode, 0);
+  EXPECT_EQ(bytes(), said);
+  ASSERT_EQ(queue({"-o", "a.queue", "--preprocess", "none", "--start", "X=1", "--velocity", "9"})
+                .exitCode,
+            0);
+  EXPECT_EQ(at<uint32_t>(bytes(), 16), 3U) << "neither N30 nor a positioning of the tool";
+  // Another file of the project.
+  std::string other = section;
+  other.replace(other.find("a.cnc"), 5, "b.cnc");
+  writeFile(scratch_.path() / "stride.toml", other);
+  ASSERT_EQ(queue({"-o", "a.queue", "--velocity", "7", "--start", "X=1"}).exitCode, 0);
+  EXPECT_EQ(bytes(), plain);
+}
+
 } // namespace
 } // namespace stride::test

@@ -42,6 +42,8 @@ constexpr ErrorRow kErrors[] = {
      "choose it with G15 or G17"},
     {GCodeError::NegativePeriod, Code::CncSentence, "the period of an axis is not negative",
      "less than 0", ""},
+    {GCodeError::TurnOfEllipse, Code::CncSentence, "an ellipse has no opening angle",
+     "a word of G2 and G3", "say where G8 and G9 end by X and Y"},
     {GCodeError::PartOfTurn, Code::CncSentence, "A, B and C turn the coordinates together",
      "some of them are missing", "angles that stay as they are: write them, too"},
     {GCodeError::Tilted, Code::CncSentence, "after G15 the program's Z is the machine's",

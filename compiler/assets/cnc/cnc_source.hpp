@@ -58,7 +58,7 @@ struct CncSettings {
   std::string file; ///< As stride.toml names it.
   Span span;
   CncCompile compile = CncCompile::Program;
-  double angleTolerance = 0;     ///< Of queues: corners up to it are none. [degrees]
+  std::optional<double> angleTolerance; ///< Of queues: corners up to it are none; 0. [degrees]
   uint32_t queueBytes = 0;       ///< Of queues: their memory; 0: as much as they need. [bytes]
   Span queueBytesSpan;           ///< Where stride.toml says that.
   bool stepSuppress = false;     ///< Of queues: sentences that begin with `/` are left out.

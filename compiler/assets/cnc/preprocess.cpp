@@ -112,7 +112,7 @@ private:
   /// As the blocks do it whose pins have their default values, but for the angle.
   void setCorners(CornerPath &corners, DistanceRule rule) const {
     const bool softMotion3 = program_.settings.softMotion3;
-    corners.leastTurn = program_.settings.angleTolerance * kDegree;
+    corners.leastTurn = program_.settings.angleTolerance.value_or(0) * kDegree;
     corners.rule = softMotion3 ? DistanceRule::CornerDistanceAdded : rule;
     corners.passesFunctions = softMotion3;
   }

@@ -82,7 +82,8 @@ std::optional<std::vector<PathObject>> cncQueueOf(const CncProgram &program,
   queue.size = static_cast<uint32_t>(objects.size() * sizeof(PathObject));
   setQueueContent(queue, {count, kByEditor, {}});
   uint32_t checked = UINT32_MAX; // all of them
-  checkVelocities(&queue, checked, {program.settings.angleTolerance * (M_PI / 180), -1.0});
+  checkVelocities(&queue, checked,
+                  {program.settings.angleTolerance.value_or(0) * (M_PI / 180), -1.0});
   objects.resize(count);
   return processed;
 }

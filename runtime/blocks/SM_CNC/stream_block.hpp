@@ -44,8 +44,10 @@ template <class Block> void showStream(Block &block, const StreamState &stream) 
 /// Begins at a rising edge. With too little memory nothing happens.
 template <class Processor, class Block> void beginProcessor(Block &block) noexcept {
   ProcessorState<Processor> &state = processorStateOf<Processor>(block);
-  // What is held back of the path would be lost: who appends meanwhile goes on.
-  if (block.bAppend != 0 && isAtWork(state.stream))
+  // What is held back of the path would be lost: who appends meanwhile, or after an abort, goes on.
+  if (block.bAppend != 0 &&
+      (isAtWork(state.stream) ||
+       resumeStream(state.stream, queueOf(block.poqDataIn), queueOf(&block.Queue))))
     return;
   state.stream = {};
   if (block.pbyBufferOutQueue == nullptr ||
@@ -70,7 +72,9 @@ template <class Processor, class Block> void runProcessor(Block &block) noexcept
   block.poqDataOut = &block.Queue;
   const bool ended =
       state.stream.phase == StreamPhase::Done || state.stream.phase == StreamPhase::Failed;
-  if (block.bAbort != 0 || (ended && block.bExecute == 0))
+  if (block.bAbort != 0)
+    abortStream(state.stream, queueOf(block.poqDataIn));
+  else if (ended && block.bExecute == 0)
     state.stream = {};
   else if (edge)
     beginProcessor<Processor>(block);

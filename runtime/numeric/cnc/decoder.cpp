@@ -127,6 +127,9 @@ bool checkMotion(const Work &work, int32_t function) noexcept {
   const bool ellipse = function == 8 || function == 9;
   if ((ellipse || function == 5 || function == 6) && !inXY(work.decoder))
     return fail(work.result, GCodeError::NotInThisPlane, s.functionAt);
+  // It would turn the target about the centre, away from the ellipse.
+  if (ellipse && has(s, 'T'))
+    return refuse(work, GCodeError::TurnOfEllipse, 'T');
   if (ellipse && !has(s, 'R'))
     return refuse(work, GCodeError::MissingWord, 'R');
   if (ellipse && !(get(s, 'R') > 0.0 && get(s, 'R') <= 1.0))
@@ -164,7 +167,7 @@ bool decodeMotion(const Work &work, int32_t function) noexcept {
   releaseJump(work);
   Position target = targetOf(d, s, true);
   if (arc && has(s, 'T'))
-    turnTarget(d, s, function == 2 || function == 8, target);
+    turnTarget(d, s, function == 2, target);
   PathObject object = beginObject(d, s, typeOf(function), target);
   const bool probes = function == 31 || s.probe != 0;
   if (function == 31 && s.probe == 0)

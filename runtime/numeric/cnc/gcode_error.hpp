@@ -34,6 +34,7 @@ enum class GCodeError : uint8_t {
   TooManySwitches, ///< More than kMostSwitches words H in a sentence.
   NotInThisPlane,  ///< Ellipses, parabolas and splines in the plane are in X and Y.
   NegativePeriod,  ///< Of an axis.
+  TurnOfEllipse,   ///< T of G8 and G9: only arcs of circles have an opening angle.
   PartOfTurn,      ///< Of A, B, C of G54 to G56 some are missing, where they are angles.
   Tilted,          ///< The program's Z is not the machine's, and the path is planar (G15).
   Distorted,       ///< Axes scaled by different factors make no circle of a circle.

@@ -41,10 +41,12 @@ ScanEvent give(Scanner &s, uint8_t code, double value, bool variable) noexcept {
   return ScanEvent::Word;
 }
 
+bool beginsWithSign(const Scanner &s) noexcept { return s.digits[0] == '-' || s.digits[0] == '+'; }
+
 /// The value of what `digits` holds.
 bool numberOf(const Scanner &s, double &value) noexcept {
   const int32_t decimals = s.decimals > 0 ? s.decimals : 0;
-  const int32_t signs = s.digits[0] == '-' || s.digits[0] == '+' ? 1 : 0;
+  const int32_t signs = beginsWithSign(s) ? 1 : 0;
   if (s.count == signs + (s.decimals >= 0 ? 1 : 0)) // no digit
     return false;
   if (s.mantissa < kExact && decimals <= kExactDecimals) {
@@ -68,17 +70,15 @@ bool numberOf(const Scanner &s, double &value) noexcept {
   return scanned.used == static_cast<uint32_t>(length);
 }
 
-/// Whether `digits` are those of an exponent: a sign and two or three digits.
-bool isExponent(const Scanner &s) noexcept {
-  const bool hasSign = s.digits[0] == '-' || s.digits[0] == '+';
-  if (s.exponent == Exponent::No || !hasSign || s.decimals >= 0 || s.count < 3 || s.count > 4)
-    return false;
-  return s.exponent == Exponent::Digits || s.digits[1] == '0';
+/// Whether the number of this word E is the exponent of the number before it.
+bool isExponentOf(const Scanner &s) noexcept {
+  return s.word.letter == 'E' && beginsWithSign(s) && s.decimals < 0 &&
+         isExponent(s.exponent, s.count - 1, s.digits[1]);
 }
 
 ScanEvent endNumber(Scanner &s) noexcept {
   double value = 0.0;
-  if (isExponent(s))
+  if (isExponentOf(s))
     return fail(s, GCodeError::Exponent);
   if (!numberOf(s, value))
     return fail(s, GCodeError::BadNumber);
@@ -165,12 +165,11 @@ ScanEvent beginValue(Scanner &s, uint8_t c) noexcept {
 
 /// The first letter of a word.
 void beginWord(Scanner &s, uint8_t c) noexcept {
-  constexpr int32_t kManyDigits = 12; // nobody writes so many by hand
   const bool isSmall = c >= 'a';
-  const bool isSure = (isSmall && !s.lowerCase) || s.count >= kManyDigits;
-  s.exponent = !s.endsInDigit || upper(c) != 'E' ? Exponent::No
-               : isSure                          ? Exponent::Digits
-                                                 : Exponent::Zeros;
+  const int32_t characters = s.count - (beginsWithSign(s) ? 1 : 0);
+  s.exponent = s.endsInDigit && upper(c) == 'E'
+                   ? exponentBehind(characters, isSmall && !s.lowerCase)
+                   : Exponent::No;
   s.lowerCase = isSmall;
   s.state = ScanState::Letters;
   s.letters[0] = upper(c);

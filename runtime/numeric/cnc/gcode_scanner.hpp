@@ -5,6 +5,7 @@
 #ifndef STRIDE_RUNTIME_NUMERIC_CNC_GCODE_SCANNER_HPP
 #define STRIDE_RUNTIME_NUMERIC_CNC_GCODE_SCANNER_HPP
 
+#include "runtime/numeric/cnc/exponent.hpp"
 #include "runtime/numeric/cnc/gcode_error.hpp"
 #include "runtime/numeric/cnc/gcode_word.hpp"
 
@@ -37,14 +38,6 @@ enum class ScanState : uint8_t {
   Name,
   Rest, ///< What is passed over up to the end of the line.
   Ended,
-};
-
-/// Whether a word E is the exponent of the number before it, as other programs write small numbers:
-/// 1e-05 and 1.2246467991473532e-16 are no words of a path.
-enum class Exponent : uint8_t {
-  No,
-  Zeros,  ///< It stands right after a number: with a sign and zeros before its digits it is one.
-  Digits, ///< So it is with a sign and two digits: a small e after a capital, or after many digits.
 };
 
 /// All that it keeps. Trivially copyable; begins as Scanner{}.

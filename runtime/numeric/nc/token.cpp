@@ -1,6 +1,7 @@
 #include "runtime/numeric/nc/token.hpp"
 
 #include "runtime/iec/text.h"
+#include "runtime/numeric/cnc/exponent.hpp"
 
 namespace stride::nc {
 namespace {
@@ -15,10 +16,8 @@ Token bad(Token token, Error error) noexcept {
   return token;
 }
 
-/// Whether what follows the number is an exponent, as other programs write small numbers: 1e-05 and
-/// 1.2246467991473532e-16 would be two words. cnc::Exponent says the same of the other language.
+/// Whether what follows the number is an exponent instead of a word E.
 bool hasExponent(const ProgramLine &line, int32_t begin, int32_t end) noexcept {
-  constexpr int32_t kManyDigits = 12;
   const char *const text = line.text;
   const char letter = text[end];
   if ((letter != 'e' && letter != 'E') || (text[end + 1] != '-' && text[end + 1] != '+'))
@@ -26,14 +25,13 @@ bool hasExponent(const ProgramLine &line, int32_t begin, int32_t end) noexcept {
   int32_t digits = 0;
   while (isDigit(text[end + 2 + digits]))
     ++digits;
-  const char after = text[end + 2 + digits];
-  if (digits < 2 || digits > 3 || after == '.')
-    return false;
   int32_t word = begin - 1;
   while (word >= 0 && (text[word] == '-' || text[word] == '+' || text[word] == ' '))
     --word;
   const bool isAfterCapital = word >= 0 && text[word] >= 'A' && text[word] <= 'Z';
-  return text[end + 2] == '0' || (letter == 'e' && isAfterCapital) || end - begin >= kManyDigits;
+  return text[end + 2 + digits] != '.' &&
+         cnc::isExponent(cnc::exponentBehind(end - begin, letter == 'e' && isAfterCapital), digits,
+                         text[end + 2]);
 }
 
 Token numberAt(const ProgramLine &line, Token token) noexcept {

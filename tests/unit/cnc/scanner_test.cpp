@@ -114,9 +114,10 @@ TEST(Scanner, RefusesExponents) {
   EXPECT_THAT(errors("G1 X1e-05\nY2e-05 Z7"),
               ElementsAre(Pair(GCodeError::Exponent, 5), Pair(GCodeError::Exponent, 12)));
   // Words E, also without blanks between words, and after another number than that of the line.
-  for (const char *text : {"G1 X1 E-05", "G1X10E100E-100", "g1x10e-10", "G1X1.2E-10", "G1X1E-5",
-                           "G1X1E05", "G1X1E-0500", "G1X1E-05.5", "X12345678901\nE-10", "X$a$E-05",
-                           "G1 X1.23456789 e-12", "G1(X1)E-05", "g1 x1.234567891E100"})
+  for (const char *text :
+       {"G1 X1 E-05", "G1X10E100E-100", "g1x10e-10", "G1X1.2E-10", "G1X1E-5", "G1X1E05",
+        "G1X1E-0500", "G1X1E-05.5", "X12345678901\nE-10", "X$a$E-05", "G1 X1.23456789 e-12",
+        "G1(X1)E-05", "g1 x1.234567891E100", "G1X10EZ-050", "G1X10EF-05", "g1 x-1.123456789e-10"})
     EXPECT_TRUE(errors(text).empty()) << text;
 }
 

@@ -1,4 +1,5 @@
 // Tool correction and loops together, against what a disc covers that is rolled along the contour.
+#include "runtime/numeric/cnc/object_shape.hpp"
 #include "runtime/numeric/cnc/processors/avoid_loop.hpp"
 #include "runtime/numeric/cnc/processors/tool_correction.hpp"
 
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -49,7 +51,7 @@ std::vector<Point> finely(const std::vector<PathObject> &path, double error) {
   std::vector<Point> points;
   for (const PathObject &o : path) {
     int steps = 1;
-    if (o.moveType == MoveType::Spline)
+    if (o.moveType == MoveType::Spline || isEllipse(o.moveType))
       steps = static_cast<int>(4 / std::sqrt(error));
     else if (o.moveType != MoveType::Line && o.moveType != MoveType::Positioning)
       steps = 1 + static_cast<int>(std::fabs(o.parameterRange[1]) * M_PI / 180 /
@@ -197,6 +199,103 @@ TEST(OffsetArea, OfSpirals) {
   for (const double width : {2.0, 5.5})
     judged += judgeAll(spiral(3, 8, width), {0.7, 1.3, 3.5}, "spiral " + std::to_string(width));
   EXPECT_GT(judged, 5);
+}
+
+/// An arc of an ellipse whose main axis is along the chord, which takes the middle of its longer
+/// side: `half` of its parameter to each side, bulging by `bulge` of the main axis to the left.
+void ellipticSide(Drawing &d, Point to, double half, double bulge) {
+  const Point from = d.here;
+  const double chord = gapOf(from, to);
+  const double c = (to.x - from.x) / chord;
+  const double s = (to.y - from.y) / chord;
+  const double a = chord / (2 * std::sin(half));
+  const double down = std::fabs(bulge) * a * std::cos(half) * (bulge > 0 ? -1 : 1);
+  PathObject &o =
+      d.add(bulge > 0 ? MoveType::EllipseClockwise : MoveType::EllipseCounterclockwise, to);
+  o.shape[0] = (from.x + to.x) / 2 - s * down;
+  o.shape[1] = (from.y + to.y) / 2 + c * down;
+  o.shape[2] = c;
+  o.shape[3] = s;
+  o.shape[4] = a;
+  o.shape[5] = std::fabs(bulge) * a;
+  o.shape[6] = std::atan2(s, c) * 180 / M_PI;
+  o.shape[7] = std::fabs(bulge);
+  const double degrees = half * 180 / M_PI;
+  o.parameterRange[0] = bulge > 0 ? 90 + degrees : 270 - degrees;
+  o.parameterRange[1] = bulge > 0 ? 2 * degrees : -2 * degrees;
+  ObjectShape shape{};
+  EXPECT_EQ(shapeOf(o, shape), ShapeError::None);
+  o.length = shape.length;
+}
+
+/// A closed contour around 0 of lines, arcs of circles and ellipses, and splines.
+Drawing curvedContour(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&random](double lo, double hi) {
+    return std::uniform_real_distribution<double>(lo, hi)(random);
+  };
+  const int corners = 4 + static_cast<int>(seed % 5);
+  std::vector<Point> points;
+  for (int i = 0; i < corners; ++i) {
+    const double phi = 2 * M_PI * (i + uniform(-0.25, 0.25)) / corners;
+    const double r = uniform(15, 35);
+    points.push_back({r * std::cos(phi), r * std::sin(phi)});
+  }
+  const auto middle = [](const Point &a, const Point &b) {
+    return Point{(a.x + b.x) / 2, (a.y + b.y) / 2};
+  };
+  const Point begin = middle(points[0], points[1]);
+  Drawing d;
+  d.here = begin;
+  d.line(points[1].x, points[1].y);
+  for (size_t i = 2; i <= points.size(); ++i) {
+    const Point to = points[i % points.size()];
+    const Point from = d.here;
+    const Point way{to.x - from.x, to.y - from.y};
+    const double bulge = uniform(0.2, 1) * (uniform(0, 1) < 0.5 ? 1 : -1);
+    const int kind = static_cast<int>(uniform(0, 4));
+    if (kind == 0)
+      d.line(to.x, to.y);
+    else if (kind == 1)
+      ellipticSide(d, to, uniform(0.3, 1.2), bulge > 0 ? 1 : -1); // a circle
+    else if (kind == 2)
+      ellipticSide(d, to, uniform(0.3, 1.5), bulge);
+    else
+      d.spline(to, {way.x * uniform(0.3, 1.2) - way.y * bulge, way.y + way.x * bulge},
+               {way.x + way.y * uniform(-0.8, 0.8), way.y - way.x * uniform(-0.8, 0.8)});
+    d.path.back().length = d.path.back().length > 0 ? d.path.back().length : gapOf(from, to);
+  }
+  d.line(begin.x, begin.y);
+  return d;
+}
+
+/// Whether the contour crosses itself, or turns back at a corner, beside which it may do so.
+bool isTangled(const Drawing &d) {
+  constexpr double kStep = 1e-4;
+  for (size_t i = 1; i < d.path.size(); ++i) {
+    const Point a = placeOfObject(d.path[i - 1], 1 - kStep);
+    const Point b = placeOfObject(d.path[i], 0);
+    const Point c = placeOfObject(d.path[i], kStep);
+    const double ahead = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y);
+    if (ahead < -0.95 * gapOf(a, b) * gapOf(b, c))
+      return true;
+  }
+  return crossingsIn(sampled(d.path, 60)) != 0;
+}
+
+/// Corners of ellipses and splines with each other, inside and outside.
+TEST(OffsetArea, OfCurves) {
+  const char *const more = std::getenv("STRIDE_PATH_CASES");
+  const unsigned cases = more != nullptr ? static_cast<unsigned>(std::atoi(more)) : 10;
+  int judged = 0;
+  for (unsigned seed = 0; seed < cases; ++seed) {
+    const Drawing d = curvedContour(seed);
+    if (isTangled(d))
+      continue;
+    EXPECT_LT(greatestMisfit(d.path), 1e-9);
+    judged += judgeAll(d, {0.7, 2.3}, "curves " + std::to_string(seed));
+  }
+  EXPECT_GE(judged, static_cast<int>(2 * cases));
 }
 
 } // namespace

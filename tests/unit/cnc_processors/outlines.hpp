@@ -71,9 +71,20 @@ inline Drawing reversed(const Drawing &forward) {
     if (o.moveType == MoveType::Spline) {
       o.parameterRange[0] = from == 0 && range == 0 ? 1 : range;
       o.parameterRange[1] = from;
-    } else if (o.moveType == MoveType::Clockwise || o.moveType == MoveType::Counterclockwise) {
-      const bool isClockwise = o.moveType == MoveType::Clockwise;
-      o.moveType = isClockwise ? MoveType::Counterclockwise : MoveType::Clockwise;
+    } else if (isCircle(o.moveType) || isEllipse(o.moveType)) {
+      switch (o.moveType) {
+      case MoveType::Clockwise:
+        o.moveType = MoveType::Counterclockwise;
+        break;
+      case MoveType::Counterclockwise:
+        o.moveType = MoveType::Clockwise;
+        break;
+      case MoveType::EllipseClockwise:
+        o.moveType = MoveType::EllipseCounterclockwise;
+        break;
+      default:
+        o.moveType = MoveType::EllipseClockwise;
+      }
       o.parameterRange[0] = from - range; // clockwise ranges are positive
       o.parameterRange[1] = -range;
     }

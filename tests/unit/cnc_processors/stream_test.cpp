@@ -209,4 +209,61 @@ TEST(CncStream, AppendsToWhatIsThere) {
   }
 }
 
+/// What a processor has held back when it was given up comes out when the path goes on.
+TEST(CncStream, GoesOnAfterAnAbort) {
+  OwnedQueue input(20);
+  OwnedQueue output(20);
+  StreamState stream{};
+  Repeating processor{};
+  startStream(stream, &output.queue, Repeating::kGenerator, false);
+  start(processor);
+  EXPECT_FALSE(resumeStream(stream, &input.queue, &output.queue)); // it is at work
+  const auto feed = [&](int32_t number) {
+    const PathObject object = numbered(number, 1);
+    stride::cnc::append(&input.queue, &object);
+  };
+  feed(3);
+  stepStream(stream, processor, &input.queue, &output.queue);
+  EXPECT_EQ(countOf(&output.queue), 0U); // the object is held back
+  abortStream(stream, &input.queue);
+  abortStream(stream, &input.queue); // bAbort stays
+  stepStream(stream, processor, &input.queue, &output.queue);
+  EXPECT_EQ(stream.phase, StreamPhase::Idle);
+  feed(4);
+  ASSERT_TRUE(resumeStream(stream, &input.queue, &output.queue));
+  input.queue.endOfList = 1;
+  for (int i = 0; i < 4; ++i)
+    stepStream(stream, processor, &input.queue, &output.queue);
+  EXPECT_EQ(stream.phase, StreamPhase::Done);
+  ASSERT_EQ(countOf(&output.queue), 2U);
+  EXPECT_EQ(objectAt(&output.queue, 0)->number, 3);
+  EXPECT_EQ(objectAt(&output.queue, 1)->number, 4);
+  abortStream(stream, &input.queue);
+  EXPECT_FALSE(resumeStream(stream, &input.queue, &output.queue)); // it was complete
+}
+
+/// Held back is what belongs to a path that its input does not have any more.
+TEST(CncStream, BeginsAnewWhereItsInputHasAnotherPath) {
+  OwnedQueue input(20);
+  OwnedQueue output(20);
+  StreamState stream{};
+  Repeating processor{};
+  const PathObject object = numbered(3, 1);
+  for (const bool waits : {false, true}) {
+    clear(&input.queue);
+    startStream(stream, &output.queue, Repeating::kGenerator, false);
+    start(processor);
+    stride::cnc::append(&input.queue, &object);
+    if (!waits) // else its first object is still there
+      stepStream(stream, processor, &input.queue, &output.queue);
+    abortStream(stream, &input.queue);
+    clear(&input.queue);
+    const PathObject other = numbered(8, 1);
+    stride::cnc::append(&input.queue, &other);
+    EXPECT_FALSE(resumeStream(stream, &input.queue, &output.queue));
+    abortStream(stream, nullptr);
+    EXPECT_FALSE(resumeStream(stream, nullptr, &output.queue));
+  }
+}
+
 } // namespace

@@ -405,6 +405,39 @@ TEST(CncToolCorrection, ShiftsEllipsesAndSplinesWithinTheTolerance) {
   EXPECT_LE(worst, 1e-3);
 }
 
+/// Of a curve by a quarter turn to (0, 0), and a line that turns away by some degrees.
+Outcome cornerOfCurve(MoveType type, double turn, double radius) {
+  Drawing d;
+  d.radius = radius;
+  d.here = {-18, 18};
+  if (type == MoveType::Spline)
+    d.spline({0, 0}, {0, -30}, {30, 0});
+  else
+    d.ellipse({0, 18}, 18, 12, 180, 90);
+  const Point corner = d.here;
+  const double phi = turn * M_PI / 180;
+  d.line(corner.x + 20 * std::cos(phi), corner.y - 20 * std::sin(phi));
+  d.path.front().marks = kToolRight;
+  d.path.back().marks = kEndToolCorrection;
+  return correct(d.path);
+}
+
+/// Curves that meet at a small angle are cut as others are: there was a line back from the end of
+/// the one to the start of the other, at which the path stopped twice.
+TEST(CncToolCorrection, CutsInsideCornersOfCurvesThatTurnLittle) {
+  for (const MoveType type : {MoveType::Spline, MoveType::EllipseCounterclockwise})
+    for (const double radius : {0.7, 5.0})
+      for (double turn = 1e-5; turn < 20; turn *= 2) {
+        const std::vector<PathObject> path =
+            without(cornerOfCurve(type, turn, radius).objects, MoveType::Positioning);
+        expectWhole(path);
+        for (const PathObject &o : path)
+          EXPECT_GT(gapOf(startOf(o), endOf(o)), 0.1) << turn << " " << radius;
+        const double last = gapOf(startOf(path.back()), endOf(path.back()));
+        EXPECT_NEAR(last, 20 - radius * std::tan(turn * M_PI / 360), radius * turn * 1e-3) << turn;
+      }
+}
+
 TEST(CncToolCorrection, IsTheSameInAnyRhythm) {
   std::mt19937 random(7);
   for (uint32_t round = 0; round < 20; ++round) {

@@ -86,9 +86,13 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// A word E may stand right after a number.
 TEST(NcExpression, TellsWordsFromExponents) {
-  for (const char *text : {"N1 G1 X1E-50 F10", "n1 g1 x1e-50 f10", "N1 G1 X1 e-05 F10",
-                           "N1 G1 X1E-5F10", "N1 G1 X1E100E-100 F10"})
+  for (const char *text :
+       {"N1 G1 X1E-50 F10", "n1 g1 x1e-50 f10", "N1 G1 X1 e-05 F10", "N1 G1 X1E-5F10",
+        "N1 G1 X1E100E-100 F10", "n1 g1 x-1.123456789e-10 f10"})
     EXPECT_TRUE(runText(text).finished) << text;
+  for (const char *text :
+       {"N1 G1 X1e-05", "N1 G1 X-1e-05", "n1 g1 x1e-05", "n1 g1 x1.1234567891e-10"})
+    EXPECT_FALSE(runText(text).finished) << text;
 }
 
 TEST(NcExpression, RefusesBracketsThatAreTooDeep) {

@@ -21,6 +21,12 @@ bool endsWithSynchronisation(const Queue *queue) noexcept {
   return last != nullptr && isSynchronisation(*last);
 }
 
+/// The number of the first object; 0: there is none.
+int32_t firstNumber(const Queue *queue) noexcept {
+  const PathObject *first = objectAt(queue, 0);
+  return first != nullptr ? first->number : 0;
+}
+
 void fail(StreamState &stream, StreamError error) noexcept {
   stream.phase = StreamPhase::Failed;
   stream.error = error;
@@ -36,11 +42,39 @@ PathObject *put(Output &output, const PathObject &object) noexcept {
 }
 
 void startStream(StreamState &stream, Queue *output, Generator generator, bool appends) noexcept {
-  stream = {StreamPhase::Running, appends, StreamError::None};
+  stream = {};
+  stream.phase = StreamPhase::Running;
+  stream.named = appends;
   if (!appends)
     (void)clear(output);
   output->endOfList = 0;
   output->generator = generator;
+}
+
+void abortStream(StreamState &stream, const Queue *input) noexcept {
+  const StreamPhase phase = stream.phase;
+  if (phase != StreamPhase::Running && phase != StreamPhase::Draining) {
+    stream.phase = StreamPhase::Idle; // already given up, or complete
+    stream.error = StreamError::None;
+    return;
+  }
+  stream.phase = StreamPhase::Idle;
+  stream.broken = checkQueue(input) == QueueError::None ? phase : StreamPhase::Idle;
+  if (stream.broken == StreamPhase::Idle)
+    return;
+  stream.first = firstNumber(input);
+  stream.position = input->readPosition;
+}
+
+bool resumeStream(StreamState &stream, const Queue *input, Queue *output) noexcept {
+  if (stream.broken == StreamPhase::Idle || checkQueue(input) != QueueError::None ||
+      input->readPosition != stream.position ||
+      (stream.first != 0 && firstNumber(input) != stream.first))
+    return false;
+  stream.phase = stream.broken;
+  stream.broken = StreamPhase::Idle;
+  output->endOfList = 0;
+  return true;
 }
 
 StreamTurn turnOf(StreamState &stream, Queue *input, Queue *output, bool looksAhead) noexcept {
@@ -54,8 +88,9 @@ StreamTurn turnOf(StreamState &stream, Queue *input, Queue *output, bool looksAh
   if (stream.phase == StreamPhase::Draining) {
     if (countOf(output) != 0)
       return StreamTurn::Nothing;
-    // Only now who fills the input sees that all has been driven.
-    (void)removeAt(input, 0);
+    // Only now who fills the input sees that all has been driven. It may have begun another path.
+    if (const PathObject *first = objectAt(input, 0); first != nullptr && isSynchronisation(*first))
+      (void)removeAt(input, 0);
     stream.phase = StreamPhase::Running;
   }
   if (isFull(output))

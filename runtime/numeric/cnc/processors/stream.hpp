@@ -85,12 +85,23 @@ enum class StreamPhase : uint8_t {
 
 struct StreamState {
   StreamPhase phase;
-  bool named; ///< The output has the name of the input's program.
+  StreamPhase broken; ///< Idle by abortStream(): what it was doing; else Idle. Then it was about
+                      ///< to take
+  int32_t first;      ///< the object with this number (0: none yet)
+  uint32_t position;  ///< at this place of the input.
+  bool named;         ///< The output has the name of the input's program.
   StreamError error;
 };
 
 /// Begins: the output is made empty, or, to append, only reopened.
 void startStream(StreamState &stream, Queue *output, Generator generator, bool append) noexcept;
+
+/// Gives up. The processor keeps what it holds back.
+void abortStream(StreamState &stream, const Queue *input) noexcept;
+
+/// Goes on with the path of abortStream(), and what the processor has held back of it. FALSE:
+/// nothing has been given up, or the input holds another path since.
+bool resumeStream(StreamState &stream, const Queue *input, Queue *output) noexcept;
 
 /// What there is to do in this call.
 enum class StreamTurn : uint8_t {

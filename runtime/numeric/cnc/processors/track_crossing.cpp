@@ -15,6 +15,8 @@ constexpr double kParallel = 1e-12;
 /// How often free curves are halved before Newton's method finds their meeting.
 constexpr int32_t kDeepest = 7;
 constexpr int32_t kRounds = 12;
+/// How far places are off that have been computed, as a part of what the numbers are.
+constexpr double kRounding = 1e-14;
 
 struct Found {
   Crossing (&crossings)[kMostCrossings];
@@ -148,6 +150,12 @@ void refine(const Track &a, const Track &b, double u, double v, Found &found) no
       return;
     }
   }
+  // At a small angle rounding moves the meeting along both.
+  const Vector3 p = placeOn(a, u);
+  const Vector3 apart = placeOn(b, v) - p;
+  const double size = a.shape.length + b.shape.length + numeric::norm(p);
+  if (numeric::norm(apart) <= kRounding * size)
+    add(found, u, v);
 }
 
 void crossParts(const Track &a, const Part &first, const Track &b, const Part &second,
@@ -170,6 +178,10 @@ void crossParts(const Track &a, const Part &first, const Track &b, const Part &s
 /// In four parts each, so that none turns far.
 void crossFree(const Track &a, const Track &b, Found &found) noexcept {
   constexpr int32_t kParts = 4;
+  // Beside a corner of a small angle the middle of a part leads to where both meet once more,
+  // beyond their ends.
+  refine(a, b, 1.0, 0.0, found);
+  refine(a, b, 0.0, 1.0, found);
   for (int32_t i = 0; i < kParts; ++i)
     for (int32_t k = 0; k < kParts; ++k)
       crossParts(a, partOf(a, i * (1.0 / kParts), (i + 1) * (1.0 / kParts)), b,
