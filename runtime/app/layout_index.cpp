@@ -134,8 +134,12 @@ bool LayoutIndex::descendRoots(uint64_t offset, bool end, Visit visit) const {
 }
 
 bool LayoutIndex::startsAt(uint64_t offset, uint32_t wanted) const {
+  // An instance begins with its type__, which is nobody's UDINT.
+  bool instance = false;
   return descendRoots(offset, false, [&](uint32_t type, uint64_t rel) {
-    return rel == 0 && baseType(*app_, type) == wanted;
+    const Kind kind = app_->types[type].kind;
+    instance = instance || (rel == 0 && kind == Kind::FunctionBlock);
+    return rel == 0 && baseType(*app_, type) == wanted && (hasMembers(kind) || !instance);
   });
 }
 

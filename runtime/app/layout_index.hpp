@@ -50,7 +50,8 @@ public:
   /// largest object that ends there.
   Target target(uint64_t offset, uint32_t pointee) const;
 
-  /// True if an object of type `wanted`, which is its own baseType(), starts at the offset.
+  /// True if an object of type `wanted`, which is its own baseType(), starts at the offset; the
+  /// first elementary variable of a block does not count.
   bool startsAt(uint64_t offset, uint32_t wanted) const;
 
   /// `Main.a[2].x`; the empty text where nothing known lies.
