@@ -24,6 +24,7 @@ namespace {
 // Values of runtime/app/abi.h.
 constexpr unsigned kHasAddress = 1;
 constexpr unsigned kExternal = 2;
+constexpr unsigned kRange = 4;
 constexpr size_t kMeasures = 3; // kind, size and alignment
 
 /// Flags of a variable as runtime/app/abi.h has them in lines of symbols: letters, and the digit
@@ -133,8 +134,6 @@ private:
 } // namespace
 
 uint32_t TypeTable::index(const Type *type, bool inOut) {
-  if (!inOut && type->kind == TypeKind::Subrange)
-    type = underlying(type);
   const auto [it, fresh] =
       indices_.try_emplace({type, inOut}, static_cast<uint32_t>(types_.size()));
   const uint32_t at = it->second;
@@ -218,6 +217,16 @@ void TypeTable::fillKind(Row &row, const Type *type) {
   case TypeKind::FunctionBlock:
   case TypeKind::Program:
     return fillInstance(row, typeAs<PouType>(type));
+  case TypeKind::Subrange: {
+    const auto *range = typeAs<SubrangeType>(type);
+    const Type *base = underlying(type);
+    row.kind = Names::elementary(base->kind);
+    row.flags |= kRange;
+    row.element = index(base);
+    row.lowerBound = range->low;
+    row.elementCount = static_cast<uint64_t>(range->high);
+    return;
+  }
   default:
     row.kind = Names::elementary(type->kind);
     if (isString(type))

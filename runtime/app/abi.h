@@ -19,7 +19,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 10;
+inline constexpr uint32_t kAbiVersion = 11;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -60,6 +60,7 @@ inline constexpr char kSymbolFlagLetters[] = "ioxrpchBqtn.lsbN";
 enum TypeFlags : uint32_t {
   kTypeHasAddress = 1U << 0, ///< It or something inside it is an address slot.
   kTypeExternal = 1U << 1,   ///< A library type whose body is native.
+  kTypeRange = 1U << 2,      ///< A subrange: an integer kind with bounds, TypeDesc::lowerBound.
 };
 
 /// One enumerator.
@@ -78,7 +79,8 @@ struct MemberDesc {
   const char *renamedFrom = nullptr;
 };
 
-/// One type. Subranges and aliases do not appear: they are resolved to what they stand for.
+/// One type. Aliases do not appear: they are resolved to what they stand for. A subrange is its
+/// base type with bounds (kTypeRange).
 struct TypeDesc {
   Kind kind;
   uint32_t flags;        ///< TypeFlags.
@@ -91,9 +93,10 @@ struct TypeDesc {
                          ///< Enum: into the enumerator table.
   uint32_t memberCount;  ///< Number of members or enumerators.
   uint32_t element;      ///< Array: element type. Pointer, Reference, InOut: type pointed to.
-                         ///< Enum: base type. Else kNoIndex.
-  int64_t lowerBound;    ///< Array: first index of this dimension.
-  uint64_t elementCount; ///< Array: number of elements of this dimension.
+                         ///< Enum, kTypeRange: base type. Else kNoIndex.
+  int64_t lowerBound;    ///< Array: first index of this dimension. kTypeRange: smallest value.
+  uint64_t elementCount; ///< Array: number of elements of this dimension. kTypeRange: the largest
+                         ///< value, an int64_t.
   uint32_t stringLength; ///< STRING, WSTRING: declared length.
   uint32_t typeId;       ///< FunctionBlock: what init writes to the member with kSymTypeId; else 0.
   /// {attribute 'renamed_from' := '…'}: the type's name in an earlier build, or null.

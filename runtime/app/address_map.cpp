@@ -37,8 +37,10 @@ AddressMap::AddressMap(const TypeMatch &match, const LayoutIndex &oldIndex,
 AddressMap::Slot AddressMap::slot(uint32_t oldType, uint32_t newType) const {
   const TypeDesc &from = match_->oldApp().types[oldType];
   const TypeDesc &to = match_->newApp().types[newType];
-  const uint32_t a = from.kind == Kind::Interface ? oldTypeId_ : from.element;
-  const uint32_t b = to.kind == Kind::Interface ? newTypeId_ : to.element;
+  const uint32_t a =
+      from.kind == Kind::Interface ? oldTypeId_ : baseType(match_->oldApp(), from.element);
+  const uint32_t b =
+      to.kind == Kind::Interface ? newTypeId_ : baseType(match_->newApp(), to.element);
   if (a == kNoIndex || b == kNoIndex)
     return {a, b, false};
   return {a, b, match_->sameTypeName(a, b)};
@@ -115,14 +117,15 @@ bool AddressMap::mayPointTo(uint64_t newStart, uint32_t newType,
                             uint32_t newPointee) const noexcept {
   const StrideAppV1 &app = match_->newApp();
   const TypeDesc &is = app.types[newType];
-  if (newType == newPointee)
+  if (baseType(app, newType) == newPointee)
     return true;
   if (newPointee == kNoIndex)
     return false;
   const TypeDesc &wanted = app.types[newPointee];
   if (is.kind == wanted.kind && (is.kind == Kind::STRING || is.kind == Kind::WSTRING))
     return is.stringLength >= wanted.stringLength;
-  if (is.kind == Kind::Array && wanted.kind == Kind::Array && is.element == wanted.element)
+  if (is.kind == Kind::Array && wanted.kind == Kind::Array &&
+      baseType(app, is.element) == baseType(app, wanted.element))
     return is.elementCount >= wanted.elementCount;
   return newIndex_->startsAt(newStart, newPointee);
 }
@@ -146,7 +149,7 @@ AddressMap::Status AddressMap::map(uint64_t oldOffset, const Slot &slot,
     return Status::Gone;
   const TypePair &pair = *found.pair;
   const TypeDesc &is = match_->newApp().types[pair.newType];
-  const bool exact = target.type == slot.oldPointee;
+  const bool exact = baseType(match_->oldApp(), target.type) == slot.oldPointee;
   const bool sameMemory = slot.sameName && pair.carry != Carry::Initial &&
                           pair.carry != Carry::Number && pair.carry != Carry::Names;
   if (target.relation == Target::Relation::Inside) {
@@ -159,7 +162,7 @@ AddressMap::Status AddressMap::map(uint64_t oldOffset, const Slot &slot,
   bool allowed = sameMemory;
   if (exact)
     allowed = target.relation == Target::Relation::End
-                  ? pair.newType == slot.newPointee
+                  ? baseType(match_->newApp(), pair.newType) == slot.newPointee
                   : mayPointTo(found.newStart, pair.newType, slot.newPointee);
   else if (!allowed && target.relation == Target::Relation::Start && slot.newPointee != kNoIndex)
     allowed = newIndex_->startsAt(found.newStart, slot.newPointee);

@@ -3,8 +3,6 @@
 #include "runtime/app/carry_values.hpp"
 #include "runtime/app/image_moves.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -25,22 +23,6 @@ constexpr size_t kInlineSteps = 16;
 uint64_t addressOf(const std::byte *place) { return std::bit_cast<uint64_t>(place); }
 
 } // namespace
-
-void CarryResult::add(const CarryEvent &event) noexcept {
-  switch (event.kind) {
-  case CarryEvent::Kind::Nulled:
-    ++nulled_;
-    break;
-  case CarryEvent::Kind::TextCut:
-    ++textsCut_;
-    break;
-  case CarryEvent::Kind::EnumeratorGone:
-    ++enumeratorsGone_;
-    break;
-  }
-  if (used_ < events_.size())
-    events_[used_++] = event;
-}
 
 CarryOver::CarryOver(const StrideAppV1 &oldApp, const StrideAppV1 &newApp, MatchOptions options,
                      std::vector<SharedMemory> shared)
@@ -204,6 +186,9 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
   };
   switch (pair.carry) {
   case Carry::Bytes:
+    if (pair.ranged)
+      return single(Step::Kind::Range);
+    return appendCopy(at, to.size, to.align, out);
   case Carry::Slot:
     return appendCopy(at, to.size, to.align, out);
   case Carry::Union:
@@ -211,7 +196,7 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
     out.barrier = true; // other fields may be longer
     return;
   case Carry::Number:
-    return single(Step::Kind::Number);
+    return single(pair.ranged ? Step::Kind::Range : Step::Kind::Number);
   case Carry::Text:
     return single(Step::Kind::Text);
   case Carry::Names:
@@ -333,6 +318,10 @@ struct CarryOver::Run {
       for (uint64_t i = 0; i < step.count; ++i)
         names(step, from + i * step.oldStride, to + i * step.newStride);
       return;
+    case Step::Kind::Range:
+      for (uint64_t i = 0; i < step.count; ++i)
+        range(step, from + i * step.oldStride, to + i * step.newStride);
+      return;
     case Step::Kind::Slot:
       for (uint64_t i = 0; i < step.count; ++i)
         slot(step, from + i * step.oldStride, to + i * step.newStride);
@@ -383,6 +372,22 @@ struct CarryOver::Run {
       return report(CarryEvent::Kind::EnumeratorGone, step, to, AddressMap::Status::OtherType, 0);
     }
     writeInteger(b, value, to);
+  }
+
+  void range(const Step &step, const std::byte *from, std::byte *to) const noexcept {
+    const TypePair &pair = plan.match_.pair(step.pair);
+    const TypeDesc &type = plan.match_.newApp().types[pair.newType];
+    std::byte value[sizeof(int64_t)] = {};
+    if (pair.carry == Carry::Number)
+      plan.numbers_[step.pair](from, value, 1, 0, 0);
+    else
+      std::memcpy(value, from, type.size);
+    const int64_t number = readInteger(type.kind, value);
+    if (isInRange(type, number))
+      std::memcpy(to, value, type.size);
+    else
+      report(CarryEvent::Kind::OutOfRange, step, to, AddressMap::Status::OtherType,
+             static_cast<uint64_t>(number));
   }
 
   void slot(const Step &step, const std::byte *from, std::byte *to) const noexcept {
@@ -446,53 +451,6 @@ CarryOver::Taken CarryOver::takeOver(const Ctx &now, std::byte *oldState, std::b
   const bool whole = run(match_.newApp().reinit, newState);
   run(match_.newApp().settle, newState); // FB_Reinit may have written
   return whole ? Taken::Whole : Taken::ReinitFailed;
-}
-
-std::vector<std::string> CarryOver::describe(const CarryResult &result,
-                                             const std::byte *oldState) const {
-  std::vector<std::string> lines;
-  for (const CarryEvent &event : result.events()) {
-    std::string name = newIndex_.pathOf(event.newOffset, event.newType);
-    if (name.empty())
-      name = "an object of __NEW";
-    switch (event.kind) {
-    case CarryEvent::Kind::TextCut:
-      lines.push_back(fmt::format("{}: its text was cut to {} characters", name,
-                                  match_.newApp().types[event.newType].stringLength));
-      continue;
-    case CarryEvent::Kind::EnumeratorGone:
-      lines.push_back(fmt::format("{}: the new {} does not have its value; it starts anew", name,
-                                  match_.newApp().types[event.newType].name));
-      continue;
-    case CarryEvent::Kind::Nulled:
-      break;
-    }
-    const uint64_t offset = event.address - addressOf(oldState);
-    std::string target;
-    if (pool_.contains(offset))
-      target = "an object of __NEW";
-    else if (offset <= match_.oldApp().stateSize)
-      target = oldIndex_.path(
-          oldIndex_.target(offset, addresses_.slot(event.oldType, event.newType).oldPointee));
-    if (target.empty()) {
-      lines.push_back(fmt::format("{} is now 0: it pointed to {:#x}, where no variable lies", name,
-                                  event.address));
-      continue;
-    }
-    const char *why = event.status == AddressMap::Status::OtherType ? "has another type now"
-                                                                    : "the new build does not have";
-    if (pool_.contains(offset))
-      why = "has another type now";
-    constexpr std::string_view kTypeId = ".type__"; // what interface variables point to
-    if (target.ends_with(kTypeId)) {
-      target.resize(target.size() - kTypeId.size());
-      why = "has no methods in the new build, or is not in it";
-    }
-    lines.push_back(fmt::format("{} is now 0: it pointed to {}, which {}", name, target, why));
-  }
-  if (result.total() > result.events().size())
-    lines.push_back(fmt::format("and {} more", result.total() - result.events().size()));
-  return lines;
 }
 
 } // namespace stride::app

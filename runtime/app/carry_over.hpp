@@ -22,6 +22,7 @@ struct CarryEvent {
   enum class Kind : uint8_t {
     Nulled,         ///< An address whose target the new build does not have.
     TextCut,        ///< A text that was longer than the new string.
+    OutOfRange,     ///< A value outside of the new subrange.
     EnumeratorGone, ///< A value whose enumerator the new build does not have.
   };
   Kind kind;
@@ -29,7 +30,7 @@ struct CarryEvent {
   uint32_t oldType;          ///< Of the variable.
   uint32_t newType;
   uint64_t newOffset; ///< Of the variable.
-  uint64_t address;   ///< Nulled: the old address.
+  uint64_t address;   ///< Nulled: the old address. OutOfRange: the value, an int64_t.
 };
 
 /// What happened in one carry-over. Made before, so that applying allocates nothing.
@@ -43,11 +44,12 @@ public:
   uint64_t nulled() const { return nulled_; }
   uint64_t textsCut() const { return textsCut_; }
   uint64_t enumeratorsGone() const { return enumeratorsGone_; }
+  uint64_t outOfRange() const { return outOfRange_; }
   uint64_t addressesKept = 0;
   uint64_t objectsGivenUp = 0; ///< Objects of __NEW whose type has changed.
   /// The first ones; there may have been more than fitted.
   std::span<const CarryEvent> events() const { return {events_.data(), used_}; }
-  uint64_t total() const { return nulled_ + textsCut_ + enumeratorsGone_; }
+  uint64_t total() const { return nulled_ + textsCut_ + enumeratorsGone_ + outOfRange_; }
 
 private:
   explicit CarryResult(std::vector<CarryEvent> &&events) : events_(std::move(events)) {}
@@ -56,6 +58,7 @@ private:
   uint64_t nulled_ = 0;
   uint64_t textsCut_ = 0;
   uint64_t enumeratorsGone_ = 0;
+  uint64_t outOfRange_ = 0;
 };
 
 /// Memory outside of the state that both builds see at the same addresses.
@@ -106,10 +109,10 @@ private:
   using NumberFunction = void (*)(const std::byte *from, std::byte *to, uint64_t count,
                                   uint64_t fromStride, uint64_t toStride);
   struct Step {
-    enum class Kind : uint8_t { Copy, Bit, Number, Text, Names, Repeat, Slot };
+    enum class Kind : uint8_t { Copy, Bit, Number, Text, Names, Range, Repeat, Slot };
     Kind kind;
     bool maybe;    ///< Slot: it may as well be something else (a union).
-    uint32_t pair; ///< Number, Text, Names, Slot: the types. Repeat: the program.
+    uint32_t pair; ///< Number, Text, Names, Range, Slot: the types. Repeat: the program.
     uint64_t oldOffset;
     uint64_t newOffset;
     uint64_t count; ///< Copy: bytes. Bit: old bit's number + 16 * new bit's, 8 for a whole byte.

@@ -35,6 +35,7 @@ const char *word(Finding::Kind kind) {
   case Finding::Kind::ElementsLost:
     return "elements lost";
   case Finding::Kind::EnumeratorsGone:
+  case Finding::Kind::RangeNarrowed:
     return "values lost";
   case Finding::Kind::UnionChanged:
     return "union changed";
@@ -51,7 +52,7 @@ std::string rootPath(const RootDesc &root) {
 bool isLoss(Finding::Kind kind) {
   return kind == Finding::Kind::Lost || kind == Finding::Kind::TextShortened ||
          kind == Finding::Kind::ElementsLost || kind == Finding::Kind::EnumeratorsGone ||
-         kind == Finding::Kind::UnionChanged;
+         kind == Finding::Kind::RangeNarrowed || kind == Finding::Kind::UnionChanged;
 }
 
 CarryReport::CarryReport(const TypeMatch &match)
@@ -96,6 +97,8 @@ bool CarryReport::interesting(uint32_t index) {
   bool found = pair.changedName || !pair.added.empty() || !pair.dropped.empty();
   switch (pair.carry) {
   case Carry::Bytes:
+    found = found || pair.ranged;
+    break;
   case Carry::Slot:
     break;
   case Carry::Fields:
@@ -211,6 +214,9 @@ void CarryReport::visit(uint32_t index, const std::string &path, uint64_t places
     std::get<Finding::Kind>(key) = kind;
     add(key, {kind, path, places, from.name, to.name, std::move(detail)});
   };
+  if (pair.ranged)
+    return say(Finding::Kind::RangeNarrowed, fmt::format("those outside of {}..{}", to.lowerBound,
+                                                         static_cast<int64_t>(to.elementCount)));
   switch (pair.carry) {
   case Carry::Bytes:
   case Carry::Slot:

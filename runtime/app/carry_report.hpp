@@ -31,6 +31,7 @@ struct Finding {
     TextShortened,   ///< A longer text will be cut.
     ElementsLost,    ///< Elements outside of the new bounds.
     EnumeratorsGone, ///< Values that the new enumeration does not have become the initial value.
+    RangeNarrowed,   ///< Values outside of the new subrange become the initial value.
     UnionChanged,    ///< Kept are the bytes of the fields that did not change.
   };
   Kind kind;

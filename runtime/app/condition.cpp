@@ -1,6 +1,7 @@
 #include "runtime/app/condition.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/app/layout_index.hpp"
 #include "runtime/app/value_text.hpp"
 
 #include <fmt/format.h>
@@ -111,6 +112,15 @@ std::vector<std::byte> literalBytes(const SymbolTable &symbols, const Symbol &sy
   const TypeDesc &type = symbols.type(symbol);
   std::vector<std::byte> value(type.size);
   parseLiteral(symbols.app(), type, literal, value.data());
+  return value;
+}
+
+std::vector<std::byte> comparedBytes(const SymbolTable &symbols, const Symbol &symbol,
+                                     std::string_view literal) {
+  const StrideAppV1 &app = symbols.app();
+  const TypeDesc &type = app.types[baseType(app, symbol.type())];
+  std::vector<std::byte> value(type.size);
+  parseLiteral(app, type, literal, value.data());
   return value;
 }
 

@@ -26,6 +26,10 @@ Symbol resolveElementary(const SymbolTable &symbols, std::string_view path);
 Symbol resolveWritable(const SymbolTable &symbols, std::string_view path);
 /// What a variable is that cannot be written: "a constant" or what VAR_ACCESS says of it.
 const char *whyNotWritten(const Symbol &symbol);
+/// The bytes of a literal of the symbol's type, for a comparison: of a subrange any value of its
+/// base type. Throws Error.
+std::vector<std::byte> comparedBytes(const SymbolTable &symbols, const Symbol &symbol,
+                                     std::string_view literal);
 /// The bytes of a literal of the symbol's type. Throws Error.
 std::vector<std::byte> literalBytes(const SymbolTable &symbols, const Symbol &symbol,
                                     std::string_view literal);

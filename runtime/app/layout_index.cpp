@@ -134,8 +134,13 @@ bool LayoutIndex::descendRoots(uint64_t offset, bool end, Visit visit) const {
 }
 
 bool LayoutIndex::startsAt(uint64_t offset, uint32_t wanted) const {
-  return descendRoots(offset, false,
-                      [&](uint32_t type, uint64_t rel) { return rel == 0 && type == wanted; });
+  // An instance begins with its type__, which is nobody's UDINT.
+  bool instance = false;
+  return descendRoots(offset, false, [&](uint32_t type, uint64_t rel) {
+    const Kind kind = app_->types[type].kind;
+    instance = instance || (rel == 0 && kind == Kind::FunctionBlock);
+    return rel == 0 && baseType(*app_, type) == wanted && (hasMembers(kind) || !instance);
+  });
 }
 
 Target LayoutIndex::target(uint64_t offset, uint32_t pointee) const {
@@ -153,7 +158,7 @@ Target LayoutIndex::target(uint64_t offset, uint32_t pointee) const {
   if (descendRoots(offset, false, [&](uint32_t type, uint64_t rel) {
         const Kind kind = app_->types[type].kind;
         if (rel == 0) {
-          if (type == pointee) {
+          if (baseType(*app_, type) == pointee) {
             take(out, Relation::Start, type, offset, 0);
             return true;
           }
@@ -170,7 +175,7 @@ Target LayoutIndex::target(uint64_t offset, uint32_t pointee) const {
         const TypeDesc &desc = app_->types[type];
         if (rel != desc.size)
           return false;
-        if (type == pointee) {
+        if (baseType(*app_, type) == pointee) {
           take(out, Relation::End, type, offset - rel, 0);
           return true;
         }

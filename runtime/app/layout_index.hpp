@@ -17,6 +17,12 @@ bool isString(Kind kind);
 /// True for structures, unions, blocks and programs.
 bool hasMembers(Kind kind);
 
+/// The base type of a subrange; any other type itself. Pointers do not tell them apart.
+inline uint32_t baseType(const StrideAppV1 &app, uint32_t type) {
+  return type != kNoIndex && (app.types[type].flags & kTypeRange) != 0 ? app.types[type].element
+                                                                       : type;
+}
+
 /// What an address in the state means, seen through the type of the variable that holds it.
 struct Target {
   enum class Relation : uint8_t {
@@ -38,13 +44,14 @@ public:
   explicit LayoutIndex(const StrideAppV1 &app);
 
   /// What an address with this offset stands for when it is held by a variable that points to
-  /// `pointee`. In this order: an object of exactly that type that starts there; one that ends
-  /// there; the largest object of any type that starts there (programs excepted: their first
-  /// variable is meant); a place inside of an elementary variable; the largest object that ends
-  /// there.
+  /// `pointee`, which is its own baseType(). In this order: an object of exactly that type that
+  /// starts there; one that ends there; the largest object of any type that starts there (programs
+  /// excepted: their first variable is meant); a place inside of an elementary variable; the
+  /// largest object that ends there.
   Target target(uint64_t offset, uint32_t pointee) const;
 
-  /// True if an object of type `wanted` starts at the offset.
+  /// True if an object of type `wanted`, which is its own baseType(), starts at the offset; the
+  /// first elementary variable of a block does not count.
   bool startsAt(uint64_t offset, uint32_t wanted) const;
 
   /// `Main.a[2].x`; the empty text where nothing known lies.

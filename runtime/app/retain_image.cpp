@@ -233,7 +233,7 @@ RetainReport RetainRestore::apply(std::byte *state) const {
   CarryResult result;
   plan_->apply(before.data(), state, result);
   RetainReport report;
-  report.kept = plan_->report().keptValues();
+  report.kept = plan_->report().keptValues() - result.outOfRange();
   explain(report);
   for (const std::string &line : plan_->describe(result, before.data()))
     report.lost.push_back(shown(line));

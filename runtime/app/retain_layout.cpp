@@ -145,6 +145,8 @@ private:
       type.firstMember = first;
       return add(type);
     }
+    if ((type.flags & kTypeRange) != 0 && whole)
+      type.element = prune(type.element, true);
     if (!hasMembers(type.kind))
       return whole ? add(type) : kNoIndex;
     if (type.kind == Kind::Union && (!whole || (type.flags & kTypeHasAddress) != 0))
@@ -171,7 +173,7 @@ private:
     type.name = to_.keep(type.name);
     if (type.renamedFrom != nullptr)
       type.renamedFrom = to_.keep(type.renamedFrom);
-    type.flags &= kTypeExternal;
+    type.flags &= kTypeExternal | kTypeRange;
     to_.types_.push_back(type);
     return static_cast<uint32_t>(to_.types_.size() - 1);
   }

@@ -73,7 +73,10 @@ std::vector<std::byte> RetainLayout::encode() const {
     optional(m.renamedFrom);
   }
   out.number(app_.typeCount);
-  for (const TypeDesc &t : types_) {
+  for (TypeDesc t : types_) {
+    // Of a subrange the base type: its values are looked at when they are put back.
+    if ((t.flags & kTypeRange) != 0)
+      t = types_[t.element];
     out.number(static_cast<uint32_t>(t.kind));
     out.number(t.flags);
     out.text(t.name);

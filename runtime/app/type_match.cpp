@@ -57,6 +57,22 @@ bool sameName(const char *a, const char *b) {
   return common::lowerCase(*a) == common::lowerCase(*b);
 }
 
+bool isInRange(const TypeDesc &range, int64_t value) {
+  return value >= range.lowerBound && value <= static_cast<int64_t>(range.elementCount);
+}
+
+namespace {
+
+/// The new type is a subrange, and not all of the old one's values are known to lie in it.
+bool narrows(const TypeDesc &from, const TypeDesc &to) {
+  if ((to.flags & kTypeRange) == 0)
+    return false;
+  return (from.flags & kTypeRange) == 0 || !isInRange(to, from.lowerBound) ||
+         !isInRange(to, static_cast<int64_t>(from.elementCount));
+}
+
+} // namespace
+
 bool keepsEveryValue(Kind from, Kind to) {
   if (from == to)
     return true;
@@ -125,7 +141,8 @@ void TypeMatch::fill(TypePair &pair) {
       pair.carry = Carry::Bytes;
     else if (keepsEveryValue(from, b.kind))
       pair.carry = Carry::Number;
-    pair.bitwise = pair.carry == Carry::Bytes;
+    pair.ranged = pair.carry != Carry::Initial && narrows(a, b);
+    pair.bitwise = pair.carry == Carry::Bytes && !pair.ranged;
     return;
   }
   if (a.kind == Kind::Array && b.kind == Kind::Array)

@@ -65,6 +65,7 @@ struct TypePair {
   Carry carry = Carry::Initial;
   bool bitwise = false;           ///< The bytes can be copied as they are, address slots apart.
   bool hasSlots = false;          ///< It or something inside it is Carry::Slot.
+  bool ranged = false;            ///< A value outside of the new subrange is not taken.
   bool whole = true;              ///< Everything inside is taken, not only the variables asked for.
   bool changedName = false;       ///< Structures: the type has another name.
   std::vector<FieldPair> fields;  ///< Fields, Union: by new offset, inherited ones included.
@@ -155,6 +156,9 @@ private:
 
 /// Equal in ST, where case does not matter. Both may be null.
 bool sameName(const char *a, const char *b);
+
+/// A type that is a subrange, and its values as an int64_t tells them apart.
+bool isInRange(const TypeDesc &range, int64_t value);
 
 /// Every value of `from` is one of `to` (numbers with numbers, times with times).
 bool keepsEveryValue(Kind from, Kind to);

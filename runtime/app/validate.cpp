@@ -16,6 +16,14 @@ bool fits(uint64_t first, uint64_t count, uint64_t size) {
   return first <= size && count <= size - first;
 }
 
+/// Of integers, with a base type that is none itself.
+bool isSoundRange(const StrideAppV1 &app, const TypeDesc &type) {
+  return type.kind >= Kind::SINT && type.kind <= Kind::LWORD && type.element < app.typeCount &&
+         app.types[type.element].kind == type.kind &&
+         (app.types[type.element].flags & kTypeRange) == 0 &&
+         type.lowerBound <= static_cast<int64_t>(type.elementCount);
+}
+
 void checkType(const StrideAppV1 &app, uint32_t index) {
   const TypeDesc &type = app.types[index];
   const auto bad = [&](const char *what) {
@@ -23,6 +31,8 @@ void checkType(const StrideAppV1 &app, uint32_t index) {
   };
   if (type.name == nullptr)
     bad("no name");
+  if ((type.flags & kTypeRange) != 0 && !isSoundRange(app, type))
+    bad("range");
   switch (type.kind) {
   case Kind::Struct:
   case Kind::Union:

@@ -1,5 +1,6 @@
 #include "runtime/app/error.hpp"
 #include "runtime/app/nearest.hpp"
+#include "runtime/app/type_match.hpp"
 #include "runtime/app/value_text.hpp"
 #include "runtime/common/text.hpp"
 #include "runtime/iec/text.h"
@@ -66,18 +67,28 @@ std::string_view withoutPrefix(std::string_view text, std::string_view type) {
   return text;
 }
 
-void storeInteger(const TypeDesc &type, const Range &range, std::string_view text, void *value) {
-  const std::string_view digits = withoutPrefix(text, type.name);
+/// Without a prefix that names the type, of a subrange its base type.
+std::string_view withoutPrefix(const StrideAppV1 &app, const TypeDesc &type,
+                               std::string_view text) {
+  return withoutPrefix(text,
+                       (type.flags & kTypeRange) != 0 ? app.types[type.element].name : type.name);
+}
+
+void storeInteger(const StrideAppV1 &app, const TypeDesc &type, const Range &range,
+                  std::string_view text, void *value) {
+  const std::string_view digits = withoutPrefix(app, type, text);
   const text::Scanned number = text::scanInteger(digits.data(), length(digits));
   if (number.used == 0 || number.used != digits.size())
     notA(text, type.name, "50, -3 or 16#FF");
   const uint64_t lowest = uint64_t{0} - static_cast<uint64_t>(range.min);
   const bool fits = !number.overflow &&
                     (number.negative ? number.magnitude <= lowest : number.magnitude <= range.max);
+  const uint64_t bits = number.negative ? uint64_t{0} - number.magnitude : number.magnitude;
+  if ((type.flags & kTypeRange) != 0 && !(fits && isInRange(type, static_cast<int64_t>(bits))))
+    throw Error(fmt::format("{} is out of range for {}", text, type.name));
   if (!fits)
     throw Error(
         fmt::format("{} is out of range for {} ({}..{})", text, type.name, range.min, range.max));
-  const uint64_t bits = number.negative ? uint64_t{0} - number.magnitude : number.magnitude;
   switch (type.size) {
   case 1:
     store(value, static_cast<uint8_t>(bits));
@@ -305,7 +316,7 @@ void parseLiteral(const StrideAppV1 &app, const TypeDesc &type, std::string_view
   const char *data = text.data();
   const uint32_t size = length(text);
   if (const std::optional<Range> range = literalRange(type.kind))
-    return storeInteger(type, *range, text, value);
+    return storeInteger(app, type, *range, text, value);
   switch (type.kind) {
   case Kind::BOOL:
     return storeBool(text, value);

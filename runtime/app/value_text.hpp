@@ -27,7 +27,7 @@ size_t csvWidth(const TypeDesc &type);
 
 /// Writes the value of an ST literal: 50, -3, 16#FF, INT#5, TRUE, 1.5e3, T#3s, 'abc', an
 /// enumerator's name with or without its type. Throws Error when the text is no literal of the
-/// type or out of its range; then nothing is written.
+/// type or out of its range, also that of a subrange; then nothing is written.
 void parseLiteral(const StrideAppV1 &app, const TypeDesc &type, std::string_view text, void *value);
 
 } // namespace stride::app

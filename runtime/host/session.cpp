@@ -194,7 +194,7 @@ void Session::takeOver(OnlineChange &change, ChangeResult &result, const Tell &t
     tell("warning: online change: " + event);
   for (size_t i = 0; result.done && served && i < served->lostForces().size(); ++i)
     tell(fmt::format("warning: online change: '{}' is no longer forced: the new build has no "
-                     "such variable",
+                     "such variable, or it cannot have that value",
                      served->lostForces()[i]));
   tell(result.done ? fmt::format("note: online change done; no cycle could begin for {:.0f} us",
                                  static_cast<double>(result.pauseNs) * 1e-3)

@@ -25,7 +25,7 @@ std::optional<app::Comparison> signalOf(const app::SymbolTable &symbols,
     throw app::Error(fmt::format("trigger '{}': it is {}, not BOOL; give a threshold",
                                  trigger->name, type.name));
   return app::Comparison(symbols, symbol, app::Relation::GreaterEqual,
-                         app::literalBytes(symbols, symbol, trigger->threshold));
+                         app::comparedBytes(symbols, symbol, trigger->threshold));
 }
 
 } // namespace

@@ -286,11 +286,14 @@ SymbolServer::Change SymbolServer::prepareChange(std::unique_ptr<app::SymbolTabl
     const TypeDesc &before = symbols_->type(forced.symbol);
     try {
       app::Symbol symbol = app::resolveWritable(*symbols, forced.symbol.path());
-      if (symbols->type(symbol).layoutHash == before.layoutHash) {
-        parts.forced.push_back({std::move(symbol), forced.value});
+      if ((symbols->type(symbol).kind == Kind::BOOL) == (before.kind == Kind::BOOL)) {
+        // As it was written: an enumerator may have another number, a number another type.
+        std::vector<std::byte> value = app::literalBytes(
+            *symbols, symbol, app::formatLiteral(symbols_->app(), before, forced.value.data()));
+        parts.forced.push_back({std::move(symbol), std::move(value)});
         continue;
       }
-    } catch (const app::Error &) { // not known any more, which is told
+    } catch (const app::Error &) { // not known any more, or no value of it, which is told
     }
     change.lostForces_.push_back(forced.symbol.path());
   }

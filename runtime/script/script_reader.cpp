@@ -315,6 +315,12 @@ private:
     return checked(at, [&] { return app::literalBytes(*symbols_, symbol, literal); });
   }
 
+  std::vector<std::byte> compared(Line &line, const app::Symbol &symbol) {
+    const size_t at = line.at();
+    const std::string_view literal = line.literal("a value");
+    return checked(at, [&] { return app::comparedBytes(*symbols_, symbol, literal); });
+  }
+
   int64_t time(Line &line) {
     const size_t at = line.at();
     const std::string_view text = line.literal("a time");
@@ -371,7 +377,7 @@ private:
                                         "<=, > or >=",
                                         path, symbols_->type(symbol).name)};
     std::vector<std::byte> bytes =
-        relation ? value(line, symbol) : std::vector<std::byte>{std::byte{1}};
+        relation ? compared(line, symbol) : std::vector<std::byte>{std::byte{1}};
     return {*symbols_, std::move(symbol), relation.value_or(app::Relation::Equal),
             std::move(bytes)};
   }

@@ -70,6 +70,17 @@ public:
     type->align = static_cast<uint32_t>(type->size);
     return elementary_[kind] = type;
   }
+  const ModelType *subrange(Kind kind, int64_t low, int64_t high) {
+    ModelType *type = fresh(kind, kindName(kind) + " (" + std::to_string(low) + ".." +
+                                      std::to_string(high) + ")");
+    type->element = elementary(kind);
+    type->size = type->element->size;
+    type->align = type->element->align;
+    type->flags = kTypeRange;
+    type->low = low;
+    type->count = static_cast<uint64_t>(high);
+    return type;
+  }
   const ModelType *string(uint32_t length, bool wide = false) {
     const ModelType *&known = strings_[{length, wide}];
     if (known == nullptr) {

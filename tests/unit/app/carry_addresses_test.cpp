@@ -102,6 +102,16 @@ TEST_F(CarryAddresses, OfAnotherTypeNow) {
   EXPECT_THAT(words, ElementsAre("probe is now 0: it pointed to x, which has another type now"));
 }
 
+TEST_F(CarryAddresses, NotToTheTypeIdOfAnInstanceThatLiesThereNow) {
+  const ModelType *udint = b.elementary(Kind::UDINT);
+  a.root("", "v", a.elementary(Kind::UDINT));
+  b.root("", "v",
+         b.structure("FB", {{"type__", udint, kSymTypeId | kSymHidden}, {"n", udint}}, nullptr,
+                     Kind::FunctionBlock));
+  EXPECT_EQ(follow(0, a.elementary(Kind::UDINT), udint), kNull);
+  EXPECT_THAT(words, ElementsAre("probe is now 0: it pointed to v, which has another type now"));
+}
+
 TEST_F(CarryAddresses, ThePointerFollowsTheNewType) {
   a.root("", "x", a.elementary(Kind::DINT));
   b.root("", "x", b.elementary(Kind::LINT));

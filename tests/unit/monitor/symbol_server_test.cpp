@@ -186,6 +186,28 @@ TEST_F(SymbolServing, AnotherBuild) {
   EXPECT_THAT(errorOf([&] { server.again(waiting); }), HasSubstr("another build"));
 }
 
+TEST_F(SymbolServing, AForcedEnumeratorIsForcedByNameInAnotherBuild) {
+  server.force({{"PLC_PRG.color", "blue"}});
+  run();
+  const stride::EnumeratorDesc moved[] = {{"blue", 3}, {"red", 4}, {"grey", 6}};
+  stride::StrideAppV1 description = *stride_app_v1();
+  description.enumerators = moved;
+  const auto other = [&] {
+    return server.prepareChange(std::make_unique<stride::app::SymbolTable>(description));
+  };
+  SymbolServer::Change change = other();
+  EXPECT_THAT(change.lostForces(), IsEmpty());
+  server.changeApplication(change);
+  EXPECT_THAT(server.forced(), ElementsAre(Pair("PLC_PRG.color", "blue")));
+  run();
+  EXPECT_EQ(read("PLC_PRG.color"), "3");
+  server.force({{"PLC_PRG.color", "grey"}});
+  EXPECT_THAT(
+      server.prepareChange(std::make_unique<stride::app::SymbolTable>(application.description()))
+          .lostForces(),
+      ElementsAre("PLC_PRG.color"));
+}
+
 TEST_F(SymbolServing, WhatIsWrittenFromOutsideIsLoggedWhenItChangesSomething) {
   struct Log final : stride::monitor::WriteLog {
     void wrote(const std::byte *place, size_t size, bool) noexcept override {
