@@ -238,6 +238,26 @@ void changeRegulated(AxisRef &axis, Regulated before) noexcept {
     axis.nAxisState = state::kDiscrete;
 }
 
+void brakeWithDrive(AxisRef &axis) noexcept {
+  followActual(axis);
+  if (axis.nAxisState == state::kStandstill) {
+    writeMotion(axis, 0.0, 0.0);
+    return;
+  }
+  writeMotion(axis, axis.fActVelocity, 0.0);
+  auto &plan = axis.stPlanner;
+  const double deceleration = brakingDeceleration(axis);
+  if (exact::fabs(axis.fSetVelocity) > 2.0 * deceleration * axis.fTaskCycle) {
+    planBraking(axis, deceleration, Braking::Gentle);
+    if (plan.bActive != 0)
+      return;
+  }
+  // It is over one cycle after the drive says that it is at rest.
+  writeMotion(axis, 0.0, 0.0);
+  beginPlan(plan, axis.fTaskCycle, 2.0 * axis.fTaskCycle, axis.fSetPosition, 0.0);
+  appendSegment(plan, 0.0, 0.0, setState(axis), 0.0, 0.0);
+}
+
 void superviseThoroughly(AxisRef &axis) noexcept {
   if (!isPowered(axis)) {
     leaveUnpowered(axis);

@@ -36,6 +36,11 @@ inline void beginCycle(AxisRef &axis) noexcept {
   axis.bHWLimitIgnored = 0;
 }
 
+/// The drive still moves the axis by itself, on its way to rest, though somebody has taken its
+/// reference run away: set values follow it, and who brakes does so until it is there. In every
+/// cycle, before beginCycle.
+void brakeWithDrive(AxisRef &axis) noexcept;
+
 /// The drive regulates something else than it did (`before`) when the last cycle ended. A velocity
 /// command goes on where a velocity is still regulated; whoever else moved the axis loses it with
 /// error 21. What moves then is braked: by the set values, or as soon as these count again. Before

@@ -16,7 +16,7 @@ enum CyclicData : uint8_t { kPosition = 1, kVelocity = 2, kTorque = 4, kCurrent 
 /// How far a drive's own reference run is.
 enum class Homing : uint8_t {
   None,    ///< The drive does what the set values say.
-  Running, ///< It moves by itself.
+  Running, ///< It moves by itself; also while it comes to rest when nobody wants that any more.
   Found,   ///< It has passed its reference, and still moves by itself.
   Failed,  ///< It has given up.
 };
@@ -61,7 +61,8 @@ struct DriveCommand {
   bool regulatorOn = false; ///< Switch the power stage on.
   bool driveStart = false;  ///< Release the brake.
   bool errorAckn = false;   ///< Acknowledge the error.
-  /// Look for the reference, whatever the set values say; FALSE: follow them, from where it is.
+  /// Look for the reference, whatever the set values say; FALSE: follow them, from where it is or
+  /// has come to rest.
   bool homing = false;
   uint8_t capture = 0; ///< Bit n: latch at the first edge of input n; 0 in between arms it anew.
   uint8_t controllerMode = 3; ///< As in DriveStatus.

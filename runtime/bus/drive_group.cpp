@@ -261,7 +261,8 @@ void readActual(axis::AxisRef &axis, const DriveStatus &status) {
 /// Errors of the drive and of the bus, and the way out of them. TRUE: it has gone that way.
 bool followErrors(axis::AxisRef &axis, const DriveStatus &status) {
   if (axis.nAxisState == axis::state::kErrorStop) {
-    axis::acknowledge(axis);
+    if (status.homing != Homing::Running) // it is not at rest yet
+      axis::acknowledge(axis);
     return axis.nAxisState != axis::state::kErrorStop;
   }
   if (!status.communication)
@@ -301,7 +302,9 @@ void followDrive(axis::AxisRef &axis, const DriveStatus &status) {
   }
   axis.bStartReference = 0;
   axis.byHoming = static_cast<uint8_t>(axis::DriveHoming::None);
-  if (axis::regulated(axis) != axis::Regulated::Position)
+  if (status.homing == Homing::Running && axis::isPowered(axis))
+    axis::brakeWithDrive(axis);
+  else if (axis::regulated(axis) != axis::Regulated::Position)
     axis::followActual(axis);
 }
 

@@ -183,7 +183,7 @@ PowerTarget Drive402::powerTarget() const {
 
 /// Set values are carried out.
 bool Drive402::follows() const {
-  return status_.driveStarted && !homing_.wantsMode() && homing_.step() != HomingRun::Step::Leaving;
+  return status_.driveStarted && homing_.letsFollow();
 }
 
 void Drive402::write(Signals &signals) {
@@ -313,7 +313,9 @@ bool Drive402::atRest() const {
   return !isRegulated(power_.state()) || resting_ >= bus::kRestCycles;
 }
 
-bool Drive402::commandedToMove() const { return follows() && targetMoves_; }
+bool Drive402::commandedToMove() const {
+  return (follows() && targetMoves_) || homing_.step() == HomingRun::Step::Cancelling;
+}
 
 ObjectWish Drive402::probeWish() const {
   for (size_t probe = 0; probe < kProbes; ++probe)

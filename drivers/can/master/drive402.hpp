@@ -96,7 +96,7 @@ public:
   void shutDown() { shutDown_ = true; }
   /// It stands still, or is off.
   [[nodiscard]] bool atRest() const;
-  /// In regulation, with set values that move.
+  /// In regulation, with set values that move; or on its way to rest from a reference run.
   [[nodiscard]] bool commandedToMove() const;
 
   /// What is to be asked by SDO.

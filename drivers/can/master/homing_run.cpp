@@ -18,8 +18,8 @@ void HomingRun::go(Step step) {
 }
 
 void HomingRun::step(const Facts &facts) {
-  if (!facts.wanted) {
-    go(Step::Idle);
+  if (!facts.wanted || step_ == Step::Cancelling || step_ == Step::Returning) {
+    cancel(facts);
     return;
   }
   cycles_ = std::min(cycles_ + 1, timeout_);
@@ -57,9 +57,27 @@ void HomingRun::step(const Facts &facts) {
     else if (facts.modeLate || late)
       go(Step::Failed);
     break;
-  case Step::Found:
-  case Step::Failed:
+  default:
     break;
+  }
+}
+
+/// Whoever moves by itself stops by itself: a set value would lead it back to where it was when it
+/// said so.
+void HomingRun::cancel(const Facts &facts) {
+  const bool moves = start() && facts.enabled;
+  cycles_ = std::min(cycles_ + 1, timeout_);
+  const bool late = cycles_ >= timeout_;
+  if (step_ == Step::Cancelling) {
+    if (!facts.enabled)
+      go(Step::Idle);
+    else if ((facts.rests && cycles_ >= kDeadTime) || late)
+      go(Step::Returning);
+  } else if (step_ == Step::Returning) {
+    if (!facts.enabled || facts.inOther || facts.modeLate || late)
+      go(Step::Idle);
+  } else {
+    go(moves ? Step::Cancelling : Step::Idle);
   }
 }
 

@@ -18,6 +18,8 @@ public:
     Leaving, ///< The reference is known; the mode of before is awaited.
     Found,
     Failed,
+    Cancelling, ///< Nobody wants it any more: it is told to stop, and is not at rest yet.
+    Returning,  ///< It is at rest; the mode of before is awaited.
   };
 
   /// What is known in a cycle.
@@ -41,7 +43,13 @@ public:
 
   [[nodiscard]] Step step() const { return step_; }
   /// 6060h shall be that of homing.
-  [[nodiscard]] bool wantsMode() const { return step_ == Step::Entering || start(); }
+  [[nodiscard]] bool wantsMode() const {
+    return step_ == Step::Entering || step_ == Step::Cancelling || start();
+  }
+  /// Set values are carried out: the drive neither moves by itself nor changes its mode for that.
+  [[nodiscard]] bool letsFollow() const {
+    return !wantsMode() && step_ != Step::Leaving && step_ != Step::Returning;
+  }
   /// Bit 4 of the controlword.
   [[nodiscard]] bool start() const {
     return step_ == Step::Starting || step_ == Step::Running || step_ == Step::Braking;
@@ -49,6 +57,7 @@ public:
 
 private:
   void go(Step step);
+  void cancel(const Facts &facts);
   void watch(uint16_t statusword);
 
   uint32_t timeout_;

@@ -27,6 +27,9 @@ constexpr std::array<std::string_view, kPowerStates> kNames = {
     "an unknown state",
 };
 
+/// Cycles after which what a drive says knows what it was told: there and back, and one of its own.
+constexpr uint32_t kSettles = 4;
+
 constexpr uint16_t kDisableVoltage = 0x00;
 constexpr uint16_t kQuickStop = 0x02;
 constexpr uint16_t kShutdown = 0x06;
@@ -103,6 +106,8 @@ void PowerControl::seen(uint16_t statusword) {
   const PowerState now = powerStateOf(statusword);
   if (now != state_)
     waited_ = 0;
+  if (state_ == PowerState::Enabled && now != state_ && controlword_ == kEnable)
+    left_ = kSettles;
   state_ = now;
   if ((statusword & kFaultBit) == 0)
     return;
@@ -126,8 +131,18 @@ void PowerControl::demand(PowerTarget target, bool acknowledge) {
   tried_ = false;
   if ((stuck_ || blocked_) && target != PowerTarget::QuickStop)
     target = PowerTarget::Off;
+  target = withoutOperation(target);
   controlword_ = wordFor(state_, target, p_.off);
   watch(target);
+}
+
+/// Who has left operation by itself, or has only said so, is told to leave it before it may go on:
+/// set values are where it was when it said that, and would lead it back.
+PowerTarget PowerControl::withoutOperation(PowerTarget target) {
+  if (left_ == 0)
+    return target;
+  left_ = state_ == PowerState::Enabled ? kSettles : left_ - 1;
+  return target == PowerTarget::Enabled && left_ > 0 ? PowerTarget::SwitchedOn : target;
 }
 
 /// While a drive that was lost brakes by itself it shows that it is in operation.

@@ -71,9 +71,9 @@ public:
     blocked_ = blocked_ || !reachable;
     released_ = released_ && reachable;
   }
-  /// It has been lost, and is switched off: perhaps it still brakes by itself, wherever its set
-  /// values are.
-  [[nodiscard]] bool blocked() const { return blocked_; }
+  /// It has been lost, or has left operation by itself, and is switched off: perhaps it still
+  /// brakes by itself, wherever its set values are.
+  [[nodiscard]] bool blocked() const { return blocked_ || left_ > 0; }
   /// What is wanted in this cycle: makes the controlword of it. `acknowledge`: errors.
   void demand(PowerTarget target, bool acknowledge);
 
@@ -87,12 +87,14 @@ public:
 
 private:
   void release(bool acknowledge);
+  [[nodiscard]] PowerTarget withoutOperation(PowerTarget target);
   void demandInFault(bool acknowledge);
   void watch(PowerTarget target);
 
   PowerParameters p_;
   uint32_t waited_ = 0; ///< In a state that is not the target. [cycles]
   uint32_t pulse_ = 0;  ///< Cycles of the fault reset; 0: there is none.
+  uint32_t left_ = 0;   ///< It has left operation by itself: until it may go on. [cycles]
   uint16_t controlword_ = 0;
   PowerState state_ = PowerState::NotReady;
   bool fault_ = false;

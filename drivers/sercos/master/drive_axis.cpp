@@ -27,7 +27,7 @@ void putLong(std::span<uint8_t> bytes, size_t place, int32_t value) {
 
 DriveAxis::DriveAxis(DriveConfig config)
     : config_(std::move(config)), modes_(modeListOf(config_.settings.cyclic.controllerModes)),
-      power_(config_.powerTimeout), probes_(config_.probeInputs) {
+      power_(config_.powerTimeout), homing_(config_.powerTimeout), probes_(config_.probeInputs) {
   status_.received = config_.settings.cyclic.received;
   if (modes_.modes[0] != 0)
     status_.controllerMode = command_.controllerMode = modes_.modes[0];
@@ -130,7 +130,6 @@ void DriveAxis::readProbes() {
 void DriveAxis::readHoming() {
   switch (homing_.step()) {
   case HomingRun::Step::Idle:
-  case HomingRun::Step::Cancelling:
     status_.homing = bus::Homing::None;
     break;
   case HomingRun::Step::Found:
@@ -156,7 +155,8 @@ PowerTarget DriveAxis::powerTarget() const {
 bool DriveAxis::follows() const { return status_.driveStarted && !homing_.active(); }
 
 void DriveAxis::write(std::span<uint8_t> record) {
-  homing_.step(command_.homing, config_.homesItself && status_.driveStarted);
+  homing_.step(command_.homing, config_.homesItself && status_.driveStarted,
+               resting_ >= bus::kRestCycles);
   probes_.step(command_.capture);
   power_.demand(powerTarget(), command_.errorAckn);
   if (power_.takeReset() && reset_ == Reset::None)

@@ -47,8 +47,10 @@ public:
   void shutDown() { shutDown_ = true; }
   /// It stands still, or has no torque.
   [[nodiscard]] bool atRest() const;
-  /// Set values move it.
-  [[nodiscard]] bool commandedToMove() const { return follows() && targetMoves_; }
+  /// Set values move it, or it is on its way to rest from a reference run.
+  [[nodiscard]] bool commandedToMove() const {
+    return (follows() && targetMoves_) || (homing_.active() && !command_.homing && !atRest());
+  }
 
   /// What is to be asked by the service channel.
   [[nodiscard]] ServiceWish wish() const;

@@ -3,16 +3,46 @@
 #include "drivers/sercos/protocol/words.hpp"
 
 namespace stride::sercos {
+namespace {
 
-void HomingRun::step(bool wanted, bool able) {
+/// Cycles until positions can speak of the stop: there and back, and one of its own.
+constexpr uint32_t kDeadTime = 4;
+
+} // namespace
+
+/// Until it is cancelled the drive has it, also when it has been executed: it would not begin
+/// again. And from then on it follows its command values: what moves must be at rest before, or it
+/// would be led back to where it was when it said so.
+void HomingRun::giveUp() {
+  switch (step_) {
+  case Step::Starting:
+  case Step::Running:
+    step_ = Step::Interrupting;
+    break;
+  case Step::Reference:
+  case Step::Offset:
+    step_ = Step::Cancelling;
+    break;
+  case Step::Found:
+  case Step::Failed:
+    step_ = Step::Idle;
+    break;
+  default:
+    break;
+  }
+}
+
+void HomingRun::stop(bool able, bool rests) {
+  ++cycles_;
+  if (!able || (rests && cycles_ >= kDeadTime) || cycles_ >= timeout_)
+    step_ = Step::Cancelling;
+}
+
+void HomingRun::step(bool wanted, bool able, bool rests) {
+  if (step_ == Step::Stopping)
+    stop(able, rests);
   if (!wanted) {
-    // Until it is cancelled the drive has it, also when it has been executed: it would not begin
-    // again.
-    if (step_ == Step::Starting || step_ == Step::Running || step_ == Step::Reference ||
-        step_ == Step::Offset)
-      step_ = Step::Cancelling;
-    else if (step_ != Step::Cancelling && step_ != Step::Ending && step_ != Step::Failing)
-      step_ = Step::Idle;
+    giveUp();
     return;
   }
   if (step_ == Step::Idle)
@@ -28,6 +58,8 @@ ServiceWish HomingRun::wish() const {
     return {Kind::Write, idns::kDriveHoming, command::kStart};
   case Step::Running:
     return {Kind::State, idns::kDriveHoming};
+  case Step::Interrupting:
+    return {Kind::Write, idns::kDriveHoming, command::kInterrupt};
   case Step::Ending:
   case Step::Cancelling:
   case Step::Failing:
@@ -69,6 +101,10 @@ void HomingRun::answered(const ServiceWish &wish, const ServiceAnswer &answer) {
     break;
   case Step::Failing:
     step_ = Step::Failed;
+    break;
+  case Step::Interrupting:
+    step_ = answer.done ? Step::Stopping : Step::Cancelling;
+    cycles_ = 0;
     break;
   case Step::Cancelling:
     step_ = Step::Idle;

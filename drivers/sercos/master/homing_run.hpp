@@ -19,13 +19,19 @@ public:
     Offset,    ///< … and S-0-0150.
     Found,
     Failed,
-    Cancelling, ///< Nobody wants it any more.
-    Failing,    ///< It has failed, and is being cleared.
+    Interrupting, ///< Nobody wants it any more: the drive is told to stop …
+    Stopping,     ///< … and comes to rest.
+    Cancelling,   ///< It is being cleared then.
+    Failing,      ///< It has failed, and is being cleared.
   };
 
+  /// `timeout`: for a drive that is told to stop to come to rest. [cycles]
+  explicit HomingRun(uint32_t timeout) : timeout_(timeout) {}
+
   /// One cycle. `able`: the drive has torque and follows; without it a run cannot begin or go on.
-  void step(bool wanted, bool able);
-  void clear() { *this = HomingRun(); }
+  /// `rests`: by its positions.
+  void step(bool wanted, bool able, bool rests);
+  void clear() { *this = HomingRun(timeout_); }
 
   [[nodiscard]] Step step() const { return step_; }
   /// The drive does not follow its command values.
@@ -39,6 +45,11 @@ public:
   void answered(const ServiceWish &wish, const ServiceAnswer &answer);
 
 private:
+  void giveUp();
+  void stop(bool able, bool rests);
+
+  uint32_t timeout_;
+  uint32_t cycles_ = 0; ///< In Stopping.
   int64_t reference_ = 0;
   int64_t offset_ = 0;
   Step step_ = Step::Idle;

@@ -192,11 +192,44 @@ TEST_F(Homing, IsGivenUp) {
   start();
   cycles(20, 0);
   command.homing = false;
-  cycles(1, 0);
-  EXPECT_EQ(told(Signal::Controlword), 0x0FU);
+  for (uint32_t i = 0; i < 20; ++i) { // it brakes
+    signals.set(Signal::Position, 1000 + 100 * i);
+    cycles(1, 0);
+    EXPECT_EQ(told(Signal::Controlword), 0x0FU) << "without bit 4";
+    EXPECT_EQ(number(Signal::Mode), 6) << "it would be led back";
+    EXPECT_EQ(homing(), bus::Homing::Running);
+  }
+  command.position = 7;
+  cycles(static_cast<int>(bus::kRestCycles), 0);
   EXPECT_EQ(number(Signal::Mode), 8);
-  cycles(2, 0);
+  EXPECT_EQ(told(Signal::TargetPosition), 2900U) << "where it is, until it has the mode";
+  cycles(3, 0);
   EXPECT_EQ(homing(), bus::Homing::None);
+  EXPECT_EQ(told(Signal::TargetPosition), 7U);
+}
+
+TEST_F(Homing, IsGivenUpAndLosesPower) {
+  start();
+  cycles(20, 0);
+  command.homing = false;
+  signals.set(Signal::Position, 1000);
+  cycles(1, 0);
+  cycle(0x240);
+  cycle(0x240);
+  EXPECT_EQ(homing(), bus::Homing::None);
+}
+
+TEST_F(Homing, IsGivenUpAndWantedAgain) {
+  start();
+  cycles(20, 0);
+  command.homing = false;
+  signals.set(Signal::Position, 1000);
+  cycles(1, 0);
+  command.homing = true;
+  cycles(4, 0);
+  EXPECT_EQ(told(Signal::Controlword), 0x0FU) << "it comes to rest first";
+  cycles(20, 0);
+  EXPECT_EQ(told(Signal::Controlword), 0x1FU);
 }
 
 /// Not in a reference run: nothing of the mode has been asked.

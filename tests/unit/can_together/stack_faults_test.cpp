@@ -155,10 +155,11 @@ public:
     switch (event.trouble) {
     case Trouble::Statusword: {
       const bool own = stack.driver->master().node(event.drive).devices()[0].plan().tpdoCount > 1;
-      // "Switched on" in place of "operation enabled" is a drive that is off, and goes on again.
-      constexpr std::array<uint8_t, 6> kBits = {0x01, 0x02, 0x08, 0x10, 0x20, 0x40};
-      return bits(order((own ? 0x280U : 0x180U) + id, Fault::Corrupt, few), 0,
-                  kBits[event.detail / 8 % kBits.size()]);
+      constexpr std::array<uint8_t, 7> kBits = {0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x40};
+      const uint8_t bit = kBits[event.detail / 8 % kBits.size()];
+      // Once it has been told to leave operation, that bit would say that it has not.
+      const uint32_t count = bit == 0x04 ? std::min(few, 2U) : few;
+      return bits(order((own ? 0x280U : 0x180U) + id, Fault::Corrupt, count), 0, bit);
     }
     case Trouble::Encoder:
       return bits(order(0x180U + id, Fault::Corrupt, few), 2, event.detail >> 8U | 1U);
@@ -355,6 +356,71 @@ TEST(CanStack, AReferenceRunThatFailsDoesNotJump) {
     ASSERT_EQ(judge.complaint(), "") << i;
   }
   EXPECT_EQ(stack.axes[0]->failedHomes, 1);
+}
+
+/// MC_Stop in a reference run, at each moment of it: the drive stops by itself, and set values take
+/// it over at rest. It moves on at once.
+TEST(CanStack, AReferenceRunThatIsStoppedDoesNotJump) {
+  for (int after = 1; after < 120; ++after) {
+    Stack stack;
+    WireJudge judge(16 + 2); // what the acceleration allows from rest on, in the first cycle
+    bus::SetupParameters &drive = stack.add(5, 5);
+    drive.add({"inputs", "", 1});
+    drive.add({"physics.home_switch_from", "", 8});
+    drive.add({"physics.home_switch_to", "", 12});
+    drive.add({"startup",
+               "6098h := 19\n6099h:1 := 90000\n6099h:2 := 10000\n609Ah := 2000000\n"
+               "6084h := 1500000\n6085h := 8000000",
+               0});
+    stack.make();
+    stack.network->bus().setTap(&judge);
+    judge.watch(stack.driver->master().node(0).devices()[0].plan(), stack.network->drive(0));
+    StackAxis &one = *stack.axes[0];
+    one.homes = true;
+    one.stopsHomes = after;
+    double before = 0;
+    for (int i = 0; i < 1000 && one.stops == 0 && one.homed == 0; ++i) {
+      stack.cycle();
+      ASSERT_EQ(judge.complaint(), "") << "stopped after " << after << " in cycle " << i;
+      before = one.axis.fSetPosition;
+    }
+    ASSERT_EQ(one.stops + one.homed, 1) << after;
+    one.homes = false;
+    one.stopsHomes = 0;
+    WireJudge moving(static_cast<int32_t>(StackAxis::kVelocity * 2) + 2);
+    stack.network->bus().setTap(&moving);
+    moving.watch(stack.driver->master().node(0).devices()[0].plan(), stack.network->drive(0));
+    stack.cycle();
+    EXPECT_NEAR(one.axis.fSetPosition, before, 0.01) << after;
+    EXPECT_TRUE(stack.moveAll(1, 300)) << after;
+    ASSERT_EQ(moving.complaint(), "") << after;
+  }
+}
+
+/// A statusword that says "switched on" for a cycle or two of a motion: the drive goes on where it
+/// is, not where it was when it said so.
+TEST(CanStack, ADriveThatSeemsToLeaveOperationIsNotLedBack) {
+  for (uint32_t cycles = 1; cycles <= 2; ++cycles)
+    for (int quiet = 0; quiet < 90; quiet += 7) {
+      Stack stack;
+      WireJudge judge(static_cast<int32_t>(StackAxis::kVelocity * 2) + 2);
+      stack.add(5, 5);
+      stack.make();
+      stack.network->bus().setTap(&judge);
+      judge.watch(stack.driver->master().node(0).devices()[0].plan(), stack.network->drive(0));
+      ASSERT_TRUE(stack.moveAll(1, 3000));
+      for (int i = 0; i < quiet; ++i)
+        stack.cycle();
+      simulation::FaultOrder order;
+      order.id = 0x285;
+      order.fault = simulation::Fault::Corrupt;
+      order.count = cycles;
+      order.byte = 0;
+      order.invert = 0x04;
+      stack.network->bus().faults().order(order);
+      EXPECT_TRUE(stack.moveAll(2, 1000)) << "it comes back by itself";
+      ASSERT_EQ(judge.complaint(), "") << cycles << " cycles after " << quiet;
+    }
 }
 
 } // namespace

@@ -9,15 +9,10 @@
 #include "runtime/app/ctx.h"
 #include "runtime/bus/drive_group.hpp"
 #include "tests/support/fresh.hpp"
+#include "tests/support/stack_axis.hpp"
 #include "tests/unit/can_together/together_scene.hpp"
 
-#include "st/SM_PLCopen/MC_Home.h"
-#include "st/SM_PLCopen/MC_MoveAbsolute.h"
-#include "st/SM_PLCopen/MC_Power.h"
-#include "st/SM_PLCopen/MC_Reset.h"
-
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -25,83 +20,7 @@
 
 namespace stride::can {
 
-/// An axis and the program that moves it to and fro, and resets it as docs/can.md says.
-struct StackAxis {
-  static constexpr double kVelocity = 100;      // u/s
-  static constexpr double kAcceleration = 4000; // u/s²
-  static constexpr double kWay = 6;             // u, to each side
-  static constexpr uint32_t kIncrements = 1000; // of a unit
-
-  StackAxis() {
-    axis.dwRatioTechUnitsDenom = kIncrements;
-    axis.fSWMaxDeceleration = kAcceleration;
-    power.Enable = power.bRegulatorOn = power.bDriveStart = 1;
-  }
-  /// In each cycle.
-  void run(Ctx &ctx) {
-    power.Axis = move.Axis = reset.Axis = home.Axis = &axis;
-    power.body__(ctx);
-    ++cycles;
-    if (axis.nAxisState == axis::state::kErrorStop)
-      ++stopped;
-    else
-      stopped = 0;
-    reset.Execute = resets && stopped > 20 && cycles % 40 < 20 ? 1 : 0;
-    reset.body__(ctx);
-    if (homes || home.Busy != 0)
-      runHome(ctx);
-    else
-      runMove(ctx);
-  }
-  [[nodiscard]] bool errs() const { return axis.nAxisState == axis::state::kErrorStop; }
-
-  axis::AxisRef axis = test::fresh<axis::AxisRef>();
-  ::st::SM_PLCopen::MC_Power power = test::fresh<::st::SM_PLCopen::MC_Power>();
-  ::st::SM_PLCopen::MC_MoveAbsolute move = test::fresh<::st::SM_PLCopen::MC_MoveAbsolute>();
-  ::st::SM_PLCopen::MC_Home home = test::fresh<::st::SM_PLCopen::MC_Home>();
-  ::st::SM_PLCopen::MC_Reset reset = test::fresh<::st::SM_PLCopen::MC_Reset>();
-  bool resets = true; ///< MC_Reset is called in errorstop.
-  bool homes = false; ///< Reference runs in place of motions.
-  int stopped = 0;    ///< Cycles in errorstop.
-  int done = 0;       ///< Motions.
-  int homed = 0;      ///< Reference runs that have found something.
-  int failedHomes = 0;
-
-private:
-  void runMove(Ctx &ctx) {
-    if (move.Execute != 0 && move.Busy == 0) {
-      done += move.Done != 0 ? 1 : 0;
-      move.Execute = 0;
-    } else if (move.Execute == 0 && axis.nAxisState == axis::state::kStandstill) {
-      if (std::fabs(axis.fSetPosition - middle) > 2 * kWay)
-        middle = axis.fSetPosition;
-      forward = !forward;
-      move.Position = middle + (forward ? kWay : -kWay);
-      move.Velocity = kVelocity;
-      move.Acceleration = move.Deceleration = kAcceleration;
-      move.Execute = 1;
-    }
-    move.body__(ctx);
-  }
-  void runHome(Ctx &ctx) {
-    if (home.Execute != 0 && home.Busy == 0) {
-      homed += home.Done != 0 ? 1 : 0;
-      failedHomes += home.Error != 0 ? 1 : 0;
-      home.Execute = 0;
-    } else if (home.Execute == 0 && axis.nAxisState == axis::state::kStandstill) {
-      home.Deceleration = kAcceleration;
-      home.Position = 10;
-      home.Execute = 1;
-    }
-    move.Execute = 0;
-    move.body__(ctx);
-    home.body__(ctx);
-  }
-
-  double middle = 0;
-  int cycles = 0;
-  bool forward = false;
-};
+using test::StackAxis;
 
 /// All of it.
 struct Stack {
