@@ -1,6 +1,7 @@
 #include "compiler/syntax/literals.hpp"
 
 #include "compiler/syntax/literal_text.hpp"
+#include "compiler/syntax/token.hpp"
 
 #include <algorithm>
 #include <charconv>
