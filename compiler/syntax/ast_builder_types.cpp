@@ -150,7 +150,9 @@ void AstBuilder::blockArguments(Context *list, NamedTypeExpr &out) {
       diagnostics_
           .report(Code::UnexpectedToken, span(argument),
                   "expected the arguments of one element, in parentheses", "not `(…)`")
-          .help("write `Block[(a := 1), (a := 2)]`");
+          .help("an array is declared `ARRAY [0..9] OF …`; FB_Init of an array's elements is given "
+                "as "
+                "`Block[(a := 1), (a := 2)]`");
       return;
     }
     elements.push_back(arguments(child(operand, 0)));

@@ -1,5 +1,6 @@
 #include "compiler/syntax/file_parser.hpp"
 
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/parser.hpp"
 #include "compiler/syntax/token_sets.hpp"
 
@@ -199,6 +200,20 @@ void FileParser::finishUnit() {
   stream_.reset(unit_);
 }
 
+/// What a declaration may begin with that is written `found`.
+static void helpOutside(Diagnostic &d, Span where, std::string_view found) {
+  static const std::vector<std::string_view> kOpeners = {
+      "PROGRAM",   "FUNCTION",   "FUNCTION_BLOCK", "TYPE",          "INTERFACE", "METHOD",
+      "NAMESPACE", "VAR_GLOBAL", "VAR_CONFIG",     "CONFIGURATION", "ACTION",    "PROPERTY"};
+  const std::string_view meant = nearest(found, kOpeners);
+  if (!meant.empty())
+    d.suggest("write `" + std::string(meant) + "`", where, std::string(meant));
+  else if (isWord(found, "struct") || isWord(found, "union"))
+    d.help("a structure is declared `TYPE Name : STRUCT … END_STRUCT END_TYPE`");
+  else
+    d.help("statements stand inside PROGRAM, FUNCTION or FUNCTION_BLOCK");
+}
+
 /// Text between declarations.
 void FileParser::outside() {
   const Token start = now_;
@@ -216,10 +231,10 @@ void FileParser::outside() {
                 "`" + found + "` outside a program, function or function block")
         .help("global variables are declared in VAR_GLOBAL … END_VAR");
   else
-    diagnostics_
-        .report(Code::OutsideDeclaration, span(start),
-                "expected a declaration, found `" + found + "`", "outside every declaration")
-        .help("statements stand inside PROGRAM, FUNCTION or FUNCTION_BLOCK");
+    helpOutside(diagnostics_.report(Code::OutsideDeclaration, span(start),
+                                    "expected a declaration, found `" + found + "`",
+                                    "outside every declaration"),
+                span(start), found);
   while (now_.type != Token::kEnd) {
     advance();
     if (startsDeclaration() || isMember(now_.type))

@@ -164,6 +164,46 @@ void Scanner::bracesAsBlock(size_t begin, size_t end) {
   d.help("blocks are closed by words: IF … THEN … END_IF, FOR … DO … END_FOR");
 }
 
+/// Between VAR and END_VAR, or in a TYPE: `before found`, of which one was meant for a keyword or
+/// the name of a type.
+std::string helpForTwoNames(std::string_view before, const std::string &found) {
+  struct Meant {
+    std::string_view lower;
+    std::string_view help;
+  };
+  static constexpr Meant kMeant[] = {
+      {"pointer", "a pointer is declared `POINTER TO …`"},
+      {"reference", "a reference is declared `REFERENCE TO …`"},
+      {"enum", "an enumeration is declared `TYPE Name : (first, second); END_TYPE`"},
+      {"extend", "the base of a block stands after EXTENDS"},
+      {"implement", "the interfaces of a block stand after IMPLEMENTS"},
+      {"goto", "a jump is written `JMP label;`"},
+      {"at", "an address begins with a %: `AT %IX0.0`"},
+      {"array", "an array is declared `ARRAY [0..9] OF …`"},
+  };
+  for (const Meant &meant : kMeant)
+    if (isWord(before, meant.lower))
+      return std::string(meant.help);
+  return "variables are declared between VAR and END_VAR, the name first: `" + found + " : " +
+         std::string(before) + ";`";
+}
+
+/// A word that every programmer knows as a type.
+bool isTypeWord(std::string_view word) {
+  static constexpr std::string_view kTypes[] = {
+      "bool",  "byte",  "word", "dword", "sint", "int",  "dint",  "lint",   "usint", "uint",
+      "udint", "ulint", "real", "lreal", "time", "char", "float", "double", "string"};
+  return std::any_of(std::begin(kTypes), std::end(kTypes),
+                     [&](std::string_view type) { return isWord(word, type); });
+}
+
+/// `T#5`, which a unit follows after a blank.
+bool isDurationPrefix(std::string_view text) {
+  const size_t sign = text.find('#');
+  const std::string_view type = text.substr(0, sign == std::string_view::npos ? 0 : sign);
+  return isWord(type, "t") || isWord(type, "time") || isWord(type, "lt") || isWord(type, "ltime");
+}
+
 /// What else to say about text that the grammar does not take.
 std::string ReportStrategy::foreignHelp(const Token &found, const Token *previous,
                                         const Token *next) const {
@@ -171,14 +211,33 @@ std::string ReportStrategy::foreignHelp(const Token &found, const Token *previou
     return token != nullptr && token->type == type;
   };
   const auto quoted = [&](const Token &token) { return std::string(spelling(token)); };
-  if (is(previous, Tok::RETURN))
+  if (is(previous, Tok::RETURN) && found.type != Tok::COLON)
     return "RETURN takes no value: assign the result to the function's name first";
   if (is(previous, Tok::CARET))
     return "`^` follows a pointer; a power is written `**`";
   switch (found.type) {
   case Tok::AMPERSAND:
     return "the address of a variable is `ADR(…)`; `&` stands for AND";
+  case Tok::COLON:
+    if (is(previous, Tok::ELSE))
+      return "ELSE stands without a colon";
+    return insideBrackets()
+               ? "a value is given with `:=`; what a FUNCTION takes is declared between "
+                 "VAR_INPUT and END_VAR"
+               : "an assignment is written `:=`";
+  case Tok::SEMICOLON:
+    if (is(previous, Tok::ASSIGN) &&
+        text_.substr(previous->end, found.begin - previous->end).find('{') !=
+            std::string_view::npos)
+      return "braces hold pragmas; the values of an array stand in brackets: `[1, 2, 3]`";
+    break;
+  case Tok::MINUS:
+    if (is(previous, Tok::IDENT) && is(next, Tok::IDENT))
+      return "a name has no `-`: `" + quoted(*previous) + "_" + quoted(*next) + "`";
+    break;
   case Tok::STAR:
+    if (is(previous, Tok::COLON))
+      return "a pointer is declared `POINTER TO …`";
     return "a pointer is followed with `^` after it";
   case Tok::MOD:
     return "MOD stands between its operands: `a MOD b`";
@@ -202,9 +261,17 @@ std::string ReportStrategy::foreignHelp(const Token &found, const Token *previou
   case Tok::IDENT:
   case Tok::INTEGER:
   case Tok::REAL:
+    if (found.type == Tok::IDENT && previous != nullptr && isDurationPrefix(spelling(*previous)))
+      return "there is no blank in a duration: `" + quoted(*previous) + quoted(found) + "`";
+    if (is(previous, Tok::RPAREN) && previous->index > 0 &&
+        isTypeWord(spelling(parser_.stream().token(previous->index - 1))))
+      return "a value is converted with `TO_" +
+             std::string(spelling(parser_.stream().token(previous->index - 1))) + "(…)`";
+    if (found.type == Tok::IDENT && is(previous, Tok::IDENT) && is(next, Tok::COLON) &&
+        !isTypeWord(spelling(*previous)))
+      return "a name is one word: `" + quoted(*previous) + "_" + quoted(found) + "`";
     if (found.type == Tok::IDENT && is(previous, Tok::IDENT))
-      return "variables are declared between VAR and END_VAR, the name first: `" + quoted(found) +
-             " : " + quoted(*previous) + ";`";
+      return helpForTwoNames(spelling(*previous), quoted(found));
     if (is(previous, Tok::IDENT))
       return "arguments stand in parentheses: `" + quoted(*previous) + "(…)`";
     break;
@@ -212,6 +279,19 @@ std::string ReportStrategy::foreignHelp(const Token &found, const Token *previou
     break;
   }
   return {};
+}
+
+/// `INT i;`, `my count : INT;`
+std::string ReportStrategy::helpForTypeFirst(const Token &type, const Token &name) const {
+  const std::string first(spelling(type));
+  const std::string second(spelling(name));
+  if (isTypeWord(first))
+    return "the name stands before its type: `" + second + " : " + first + ";`";
+  const bool colonFollows = name.index + 1 < parser_.stream().size() &&
+                            parser_.stream().token(name.index + 1).type == Tok::COLON;
+  return colonFollows && type.type == Tok::IDENT
+             ? "a name is one word: `" + first + "_" + second + "`"
+             : std::string();
 }
 
 } // namespace stc

@@ -1,6 +1,7 @@
 #include "compiler/syntax/literals.hpp"
 
 #include "compiler/syntax/literal_text.hpp"
+#include "compiler/syntax/token.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -52,6 +53,13 @@ void appendUnit(std::string &out, uint32_t unit, bool joins) {
 
 } // namespace
 
+/// The unit of a duration, in any case.
+static bool isUnitOfTime(std::string_view text) {
+  constexpr std::string_view kUnits[] = {"d", "h", "m", "s", "ms", "us", "ns"};
+  return std::any_of(std::begin(kUnits), std::end(kUnits),
+                     [&](std::string_view unit) { return isWord(text, unit); });
+}
+
 bool LiteralReader::fail(Code code, Span span, std::string message, std::string label) {
   diagnostics_.report(code, span, std::move(message), std::move(label));
   return false;
@@ -99,6 +107,9 @@ bool LiteralReader::integer(std::string_view text, Span span, ast::Literal &out)
         const std::string right =
             (c == 'x' || c == 'X' ? "16#" : "2#") + std::string(digits.substr(2));
         d.suggest("write `" + right + "`", span, right);
+      } else if (base == 10 && i > 0 && isUnitOfTime(digits.substr(i))) {
+        const std::string right = "T#" + std::string(digits);
+        d.suggest("a duration is written `" + right + "`", span, right);
       }
       return false;
     }

@@ -175,7 +175,7 @@ bool LiteralReader::durationPart(std::string_view &rest, Duration &duration) {
   const size_t unit = unitOf(name);
   if (unit == std::size(kUnits))
     return fail(Code::InvalidTimeLiteral, span, "malformed duration",
-                name.empty() ? "a number has no unit"
+                name.empty() ? "a number has no unit, which follows it without a blank: `T#5s`"
                              : "unknown unit `" + name + "`; units are d, h, m, s, ms, us, ns");
   if (unit < duration.nextUnit)
     return fail(Code::InvalidTimeLiteral, span, "malformed duration",

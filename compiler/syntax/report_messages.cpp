@@ -170,6 +170,8 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
                                       "expected " + expected);
   if (token.type == Tok::COLON && next != nullptr && next->type == Tok::EQUAL)
     d.help("the sign for an assignment is written without a space: `:=`");
+  else if (expected == "`TO`" && token.type == Tok::SEMICOLON)
+    d.help("a loop is written `FOR i := 1 TO 10 BY 1 DO … END_FOR`");
   else if (token.type == Tok::ARROW)
     d.help("a comparison is written `>=`; `=>` stands in calls, before the variable that "
            "takes an output");
@@ -177,8 +179,6 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
     d.help("a variable is declared with the name of a type: write `TYPE Name : " +
            std::string(tokenSpelling(token.type)) + " … END_" +
            std::string(tokenSpelling(token.type)) + " END_TYPE`, then `: Name;` here");
-  else if (token.type == Tok::COLON)
-    d.help("an assignment is written `:=`");
   else if (token.type == Tok::REF_ASSIGN && insideBrackets())
     d.help("write `:=`: it binds an input that is a REFERENCE to the variable that is given");
   else if (std::string help = foreignHelp(token, before(), next); !help.empty())
@@ -243,6 +243,9 @@ void ReportStrategy::reportMissing(uint16_t wanted) {
   d.suggestions.push_back({"add " + sign,
                            {Edit{insertion(), (isKeywordType(wanted) ? " " : "") +
                                                   std::string(tokenSpelling(wanted))}}});
+  if (wanted == Tok::COLON && current().type == Tok::IDENT && before() != nullptr)
+    if (std::string help = helpForTypeFirst(*before(), current()); !help.empty())
+      d.help(std::move(help));
   if (wanted == Tok::RPAREN || wanted == Tok::RBRACKET)
     if (const Token *opener = openBracketOf(wanted); opener != nullptr)
       d.label(span(*opener), "to close this one");

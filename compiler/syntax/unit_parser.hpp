@@ -45,6 +45,7 @@ private:
   }
   [[nodiscard]] std::string foreignHelp(const Token &found, const Token *previous,
                                         const Token *next) const;
+  [[nodiscard]] std::string helpForTypeFirst(const Token &type, const Token &name) const;
   [[nodiscard]] bool onNewLine(const Token &token);
   [[nodiscard]] bool mayReport();
   [[nodiscard]] bool closerIsWanted(uint16_t type) const;

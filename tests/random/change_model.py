@@ -88,6 +88,7 @@ class Member:
     def __init__(self, name, kind, init=None):
         self.name, self.type, self.init = name, kind, init
         self.renamed, self.constant, self.reset = None, False, False
+        self.watched = False  # an address leads through it, so it does not become a constant
 
     def initial(self):
         return self.type.default() if self.init is None else self.init

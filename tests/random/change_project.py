@@ -45,6 +45,7 @@ class Project:
                 else:
                     member = rng.choice(kind.all())
                     steps.append(member.name)
+                    member.watched = True
                     kind = member.type
             if not steps:
                 continue
@@ -240,7 +241,7 @@ class Project:
         member = self.rng.choice(container.members)
         if self.rng.random() < 0.5:
             member.reset = not member.reset
-        elif isinstance(member.type, (Simple, Text)):
+        elif isinstance(member.type, (Simple, Text)) and not member.watched:
             member.constant = True
             member.init = self.value(member.type) if member.init is None else member.init
 

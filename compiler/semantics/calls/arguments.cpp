@@ -169,6 +169,24 @@ static VarSymbol *namedParameter(Context &c, Binding &binding, const Argument &a
   return nullptr;
 }
 
+/// `F(IN = x)`: the input is compared where a value is meant for it.
+static bool isComparedParameter(Context &c, const Binding &binding, const Argument &a) {
+  if (a.name || a.value == nullptr || a.value->kind != ExprKind::Binary)
+    return false;
+  const auto *compared = as<BinaryExpr>(a.value);
+  if (compared->op != BinaryOp::Equal || compared->left->kind != ExprKind::Name)
+    return false;
+  const Name &name = as<NameExpr>(compared->left)->name;
+  const VarSymbol *own = findVariable(binding.pou, name.id);
+  if (own == nullptr || !isParameter(own) || c.names.find(c.scope, name).symbol != nullptr)
+    return false;
+  const std::string text(name.text);
+  c.report(Code::EqualForAssign, compared->opSpan, "`=` compares, it does not assign",
+           "expected `:=`")
+      .suggest("give `" + text + "` its value with `:=`", compared->opSpan, ":=");
+  return true;
+}
+
 /// The same of a positional argument.
 static VarSymbol *positionalParameter(Context &c, Binding &binding, Argument &a) {
   if (binding.isNamed) {
@@ -201,6 +219,11 @@ void bindArguments(Context &c, CallExpr *expr, PouSymbol *pou) {
   const bool inputsOptional = std::exchange(c.inputsOptional, false); // not of calls in arguments
   Binding binding = bindingOf(expr, pou);
   for (Argument &a : expr->arguments) {
+    if (isComparedParameter(c, binding, a)) {
+      binding.hasFailed = true;
+      check(c, as<BinaryExpr>(a.value)->right);
+      continue;
+    }
     if (!a.name && !binding.isNamed && binding.next >= binding.positional.size()) {
       reportTooMany(c, binding, a);
       return;

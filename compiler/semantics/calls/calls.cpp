@@ -33,6 +33,9 @@ static const Type *notCallable(Context &c, CallExpr *expr, std::string message) 
       noteDeclaration(d, name->symbol);
     if (c.names.isBuiltin(name->name.id))
       d.help("this variable hides the standard function; give it another name");
+    else if (name->symbol != nullptr && expr->callee->type != nullptr &&
+             underlying(expr->callee->type)->kind == TypeKind::Array)
+      d.help("an element is chosen in brackets: `" + std::string(name->name.text) + "[…]`");
   }
   return checkArguments(c, expr);
 }

@@ -85,7 +85,13 @@ const Type *operatorError(Context &c, BinaryExpr *expr) {
   else if (isString(l) && isString(r) && expr->op == BinaryOp::Add)
     d.help("join strings with CONCAT(…, …)");
   else if (l->kind == TypeKind::Boolean || r->kind == TypeKind::Boolean) {
-    if (!isLogical(expr->op))
+    if (isComparison(expr->op) && expr->left->kind == ExprKind::Binary &&
+        isComparison(as<BinaryExpr>(expr->left)->op) && isNumber(r))
+      d.help("each side is a comparison of its own: `" +
+             std::string(c.program.sources.text(expr->left->span)) + " AND " +
+             std::string(c.program.sources.text(as<BinaryExpr>(expr->left)->right->span)) + " " +
+             op + " " + std::string(c.program.sources.text(expr->right->span)) + "`");
+    else if (!isLogical(expr->op))
       d.help("convert the BOOL first: `BOOL_TO_INT(…)`");
     else if (expr->left->kind == ExprKind::Binary && isNumber(r) &&
              as<BinaryExpr>(expr->left)->op == BinaryOp::Equal)

@@ -8,7 +8,9 @@
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/plain_data.hpp"
+#include "compiler/semantics/type_table.hpp"
 #include "compiler/source/suggest.hpp"
+#include "runtime/common/text.hpp"
 
 #include <algorithm>
 
@@ -197,6 +199,22 @@ static std::vector<std::string_view> visibleNames(Context &c, Sought sought) {
   return list;
 }
 
+/// The only one of the names that begins with the wrong one, `MC_MoveAbsolute` for `MC_MoveAbs`.
+static std::string_view onlyLonger(std::string_view start,
+                                   const std::vector<std::string_view> &names) {
+  constexpr size_t kFewest = 5; // letters that say enough
+  std::string_view found;
+  for (const std::string_view name : names) {
+    if (start.size() < kFewest || name.size() <= start.size() ||
+        !equalIgnoringCase(name.substr(0, start.size()), start))
+      continue;
+    if (!found.empty() && !equalIgnoringCase(found, name))
+      return {};
+    found = name;
+  }
+  return found;
+}
+
 /// Empty also when there have been so many mistakes in so large a program that looking for what was
 /// meant would take longer than the check.
 static std::string_view similarName(Context &c, const Name &name, Sought sought) {
@@ -206,7 +224,8 @@ static std::string_view similarName(Context &c, const Name &name, Sought sought)
   std::vector<std::string_view> names = visibleNames(c, sought);
   c.reported.namesLookedAt += names.size();
   std::erase_if(names, [&](std::string_view other) { return equalIgnoringCase(other, name.text); });
-  return nearest(name.text, names);
+  const std::string_view found = nearest(name.text, names);
+  return found.empty() ? onlyLonger(name.text, names) : found;
 }
 
 /// The library that has the name, which needs the library's before it; empty: none.
@@ -219,6 +238,26 @@ static std::string qualifiedOnlyLibrary(Context &c, const Name &name) {
     if (entry.qualifiedOnly)
       return std::string(entry.library);
   return {};
+}
+
+/// The name of an elementary type, or what begins as the end of a block, where a value is meant.
+static bool helpTypesAndEnds(Diagnostic &d, const Name &name, Sought sought) {
+  if (findElementaryType(name.id->lower) != nullptr) {
+    d.help(sought == Sought::Callee
+               ? "a value is converted with `TO_" + stride::common::upperCase(name.text) + "(…)`"
+               : "this is a type; variables of it are declared in VAR sections");
+    return true;
+  }
+  if (!name.id->lower.starts_with("end_"))
+    return false;
+  static const std::vector<std::string_view> kEnds = {
+      "END_IF",      "END_FOR",      "END_WHILE",          "END_REPEAT", "END_CASE",    "END_VAR",
+      "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_METHOD", "END_PROPERTY"};
+  const std::string_view meant = nearest(name.text, kEnds);
+  if (meant.empty())
+    return false;
+  d.suggest("write `" + std::string(meant) + "`", name.span, std::string(meant));
+  return true;
 }
 
 static std::string helpForAxis(const Name &name, std::string_view type) {
@@ -270,7 +309,7 @@ void reportUnknown(Context &c, const Name &name, Sought sought) {
     d.help("ANY and the like are types of inputs (VAR_INPUT) only");
     return;
   }
-  if (helpElsewhere(c, d, name, asType))
+  if ((!asType && helpTypesAndEnds(d, name, sought)) || helpElsewhere(c, d, name, asType))
     return;
   const std::string_view similar = similarName(c, name, sought);
   if (!similar.empty())
@@ -278,6 +317,9 @@ void reportUnknown(Context &c, const Name &name, Sought sought) {
               std::string(similar));
   else if (!asType && isAxisType(c.inOutOf))
     d.help(helpForAxis(name, typeAs<StructType>(c.inOutOf)->symbol->name.id->lower));
+  else if (sought == Sought::Callee)
+    d.help("write a FUNCTION of this name, or declare an instance of a block with it in a VAR "
+           "section");
   else if (!asType)
     d.help("declare it in a VAR section of this POU or in a VAR_GLOBAL list");
 }

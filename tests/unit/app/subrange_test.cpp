@@ -5,6 +5,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/app/retain_image.hpp"
 #include "runtime/app/symbols.hpp"
+#include "runtime/app/value_text.hpp"
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
