@@ -4,6 +4,7 @@
 #include "drivers/can/log/logged_port.hpp"
 #include "drivers/can/log/replay_port.hpp"
 #include "drivers/can/simulated_network.hpp"
+#include "drivers/can/socket/interface_lock.hpp"
 #include "drivers/can/socket/socket_can_port.hpp"
 #include "drivers/dummy/dummy_drive.hpp"
 
@@ -26,6 +27,16 @@ public:
 
 private:
   SimulatedNetwork &network_; ///< The driver's port.
+};
+
+/// At an interface of the system, as its only master.
+class RealCanDriver final : public CanDriver {
+public:
+  RealCanDriver(const bus::GroupSetup &setup, const CanSetup &can, std::unique_ptr<Port> port)
+      : CanDriver(setup, std::move(port)), lock_(can.interface) {}
+
+private:
+  InterfaceLock lock_;
 };
 
 /// On a recorded bus: says where it goes another way than then.
@@ -106,8 +117,9 @@ std::unique_ptr<bus::AxisDriver> replayed(const bus::GroupSetup &setup, const Ca
 std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup) {
   const CanSetup can = canSetup(setup);
   if (setup.kind == bus::BusKind::Real)
-    return std::make_unique<CanDriver>(
-        setup, logged(setup, can, std::make_unique<SocketCanPort>(can.interface, can.bitRate)));
+    return std::make_unique<RealCanDriver>(
+        setup, can,
+        logged(setup, can, std::make_unique<SocketCanPort>(can.interface, can.bitRate)));
   if (!setup.recording.replay.empty())
     return replayed(setup, can);
   auto port = std::make_unique<SimulatedNetwork>(setup);

@@ -28,8 +28,8 @@ public:
   void setLight(uint8_t percent) noexcept override { ring_.setLight(percent); }
   void setBaudRate(uint8_t megabits) noexcept override { ring_.setBaudRate(megabits); }
 
-  /// What is on the ring, for whoever disturbs it from outside of a program. `drive`: one that is no
-  /// I/O device.
+  /// What is on the ring, for whoever disturbs it from outside of a program. `drive`: one that is
+  /// no I/O device.
   [[nodiscard]] simulation::SimulatedRing &ring() { return ring_; }
   [[nodiscard]] simulation::SimulatedDrive &drive(size_t drive) { return *places_[drive].drive; }
 

@@ -182,9 +182,7 @@ PowerTarget Drive402::powerTarget() const {
 }
 
 /// Set values are carried out.
-bool Drive402::follows() const {
-  return status_.driveStarted && homing_.letsFollow();
-}
+bool Drive402::follows() const { return status_.driveStarted && homing_.letsFollow(); }
 
 void Drive402::write(Signals &signals) {
   power_.demand(powerTarget(), command_.errorAckn);

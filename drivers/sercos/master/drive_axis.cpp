@@ -13,6 +13,8 @@ namespace {
 constexpr uint16_t kManufacturer = 0x8000;
 constexpr double kLargestVelocity = 2147483647.0;
 constexpr double kLargestTorque = 32767;
+/// Of a mode that nobody wants, until it counts.
+constexpr uint32_t kUnexpectedCycles = 4;
 
 int32_t longAt(std::span<const uint8_t> bytes, size_t place) {
   return static_cast<int32_t>(wordAt(bytes, place) | uint32_t{wordAt(bytes, place + 2)} << 16U);
@@ -77,9 +79,7 @@ void DriveAxis::read(std::span<const uint8_t> telegram) {
     return;
   statusWord_ = wordAt(telegram, 0);
   power_.seen(statusWord_);
-  const size_t mode = (statusWord_ & status::kModeMask) >> status::kModeShift;
-  if (mode < modes_.modes.size() && modes_.modes[mode] != 0)
-    status_.controllerMode = modes_.modes[mode];
+  readMode();
   status_.driveStarted = power_.started();
   // Both at once if both are wanted: programs that wait for MC_Power.Status only may move then.
   status_.regulatorOn = power_.torque() && (power_.started() || !command_.driveStart);
@@ -88,6 +88,18 @@ void DriveAxis::read(std::span<const uint8_t> telegram) {
   readErrors();
   readProbes();
   readHoming();
+}
+
+/// A mode that nobody wants must be shown for a while before it counts: an axis would lose its
+/// motion for a single wrong word.
+void DriveAxis::readMode() {
+  const size_t mode = (statusWord_ & status::kModeMask) >> status::kModeShift;
+  if (mode >= modes_.modes.size() || modes_.modes[mode] == 0)
+    return;
+  const bool expected = mode == wantedMode_ || modes_.modes[mode] == status_.controllerMode;
+  unexpected_ = expected ? 0 : std::min(unexpected_ + 1, kUnexpectedCycles);
+  if (expected || unexpected_ >= kUnexpectedCycles)
+    status_.controllerMode = modes_.modes[mode];
 }
 
 void DriveAxis::readActual(std::span<const uint8_t> telegram) {

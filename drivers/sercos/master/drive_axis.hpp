@@ -61,6 +61,7 @@ private:
   enum class Reset : uint8_t { None, Start, Running, Ending };
 
   void resetAnswered(const ServiceAnswer &answer);
+  void readMode();
   void readActual(std::span<const uint8_t> telegram);
   void readErrors();
   void readProbes();
@@ -88,6 +89,7 @@ private:
   uint32_t lastTarget_ = 0; ///< Set position of the cycle before. [inc]
   uint32_t resting_ = 0;    ///< Cycles without motion.
   uint32_t modeWaited_ = 0; ///< For the mode that is wanted. [cycles]
+  uint32_t unexpected_ = 0; ///< A mode is shown that nobody wants. [cycles]
   uint16_t statusWord_ = 0;
   uint16_t class1_ = 0;    ///< S-0-0011, of the present error.
   uint8_t wantedMode_ = 0; ///< Its place in modes_.

@@ -19,10 +19,9 @@ public:
     Offset,    ///< … and S-0-0150.
     Found,
     Failed,
-    Interrupting, ///< Nobody wants it any more: the drive is told to stop …
+    Interrupting, ///< Nobody wants it any more, or nothing is heard of it: it is told to stop …
     Stopping,     ///< … and comes to rest.
-    Cancelling,   ///< It is being cleared then.
-    Failing,      ///< It has failed, and is being cleared.
+    Cancelling,   ///< The command is being cleared then.
   };
 
   /// `timeout`: for a drive that is told to stop to come to rest. [cycles]
@@ -45,11 +44,13 @@ public:
   void answered(const ServiceWish &wish, const ServiceAnswer &answer);
 
 private:
+  void go(Step step);
   void giveUp();
-  void stop(bool able, bool rests);
+  void told(const ServiceAnswer &answer);
 
   uint32_t timeout_;
-  uint32_t cycles_ = 0; ///< In Stopping.
+  uint32_t cycles_ = 0; ///< In this step.
+  bool failed_ = false; ///< That is what it comes to.
   int64_t reference_ = 0;
   int64_t offset_ = 0;
   Step step_ = Step::Idle;

@@ -47,6 +47,7 @@ public:
 private:
   uint32_t timeout_;
   uint32_t waited_ = 0;
+  uint32_t left_ = 0; ///< It has lost its torque by itself: until it may have it again. [cycles]
   uint16_t control_ = 0;
   Ready ready_ = Ready::Not;
   bool present_ = false; ///< The error, by the status word.

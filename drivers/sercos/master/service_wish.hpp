@@ -26,6 +26,7 @@ struct ServiceWish {
 struct ServiceAnswer {
   bool done = false; ///< FALSE: refused, or no answer in time.
   int64_t value = 0; ///< Read, State.
+  bool heard = true; ///< FALSE: no answer in time.
 };
 
 } // namespace stride::sercos

@@ -136,6 +136,7 @@ void Slave::end(bus::News &news) {
 void Slave::endWish(bus::News &news) {
   ServiceAnswer answer;
   answer.done = channel_.state() == ServiceChannel::State::Done;
+  answer.heard = !channel_.timedOut();
   if (answer.done && wish_.kind != ServiceWish::Kind::Write)
     answer.value = channel_.number();
   if (answer.done && wish_.kind == ServiceWish::Kind::Text) {

@@ -141,9 +141,9 @@ bool Device::transmit(DriveTelegram &telegram) noexcept {
 void Device::receiveMdt(uint8_t address, std::span<const uint8_t> data) noexcept {
   const bool cyclic = phase_ == Phase::Three || phase_ == Phase::Four;
   asked_ = false;
-  if (phase_ == Phase::Zero || hasLeft() || address_ == kNoAddress)
+  if (phase_ == Phase::Zero || address_ == kNoAddress)
     return;
-  if (occurs(faults_.loseMdts)) {
+  if (hasLeft() || occurs(faults_.loseMdts)) {
     missMdt();
     return;
   }

@@ -3,6 +3,7 @@
 #include "drivers/can/can_driver.hpp"
 #include "drivers/can/schema.hpp"
 #include "drivers/can/socket/can_link.hpp"
+#include "drivers/can/socket/interface_lock.hpp"
 #include "drivers/can/socket/socket_can_port.hpp"
 
 #include <gmock/gmock-matchers.h>
@@ -11,9 +12,15 @@
 #include <linux/can/netlink.h>
 #include <linux/rtnetlink.h>
 #include <net/if.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
+#include <csignal>
 #include <cstring>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace stride::can {
@@ -39,6 +46,42 @@ TEST(SocketCan, AnInterfaceThatIsNoCan) {
   SocketCanPort port("lo", 1000);
   EXPECT_EQ(port.state(), ControllerState::Down);
   EXPECT_FALSE(port.problem().empty());
+}
+
+/// Another process has it until it ends, by whatever.
+TEST(SocketCan, OneMasterAtAnInterface) {
+  const std::string name = "nocan" + std::to_string(::getpid());
+  bus::GroupSetup setup(kSchema, 0.001);
+  setup.kind = bus::BusKind::Real;
+  setup.busParameters.add({"interface", name, 0});
+  setup.addDrive("X", 3);
+  std::array<int, 2> ready{};
+  ASSERT_EQ(::pipe(ready.data()), 0);
+  const pid_t other = ::fork();
+  if (other == 0) {
+    const InterfaceLock lock(name);
+    (void)::write(ready[1], "1", 1);
+    ::pause();
+    ::_exit(0);
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  for (int i = 0; i < 30; ++i) { // more askers than can wait in a row
+    try {
+      (void)makeDriver(setup);
+      ADD_FAILURE() << "two masters";
+    } catch (const std::runtime_error &error) {
+      EXPECT_THAT(error.what(),
+                  HasSubstr("'" + name + "' has a master: process " + std::to_string(other)));
+    }
+  }
+  const InterfaceLock elsewhere(name + "x");
+  ::kill(other, SIGKILL);
+  ::waitpid(other, nullptr, 0);
+  ::close(ready[0]);
+  ::close(ready[1]);
+  const std::unique_ptr<bus::AxisDriver> driver = makeDriver(setup);
+  EXPECT_NO_THROW(InterfaceLock{name}) << "groups of one process may share it";
 }
 
 TEST(SocketCan, TheDriverSaysWhatIsWrong) {

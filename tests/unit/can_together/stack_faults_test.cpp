@@ -234,8 +234,10 @@ public:
     std::array<bool, 3> powered{};
     for (size_t i = 0; i < 3; ++i) {
       before[i] = stack.axes[i]->axis.fSetPosition;
+      // A drive that is stopped may have found its reference, and count from there.
       powered[i] = axis::isPowered(stack.axes[i]->axis) &&
-                   stack.axes[i]->axis.nAxisState != axis::state::kHoming;
+                   stack.axes[i]->axis.nAxisState != axis::state::kHoming &&
+                   stack.axes[i]->stop.Execute == 0;
     }
     stack.cycle();
     const double step = StackAxis::kVelocity * stack.setup.cycleSeconds + 1e-6;
@@ -295,6 +297,7 @@ void episode(unsigned seed) {
   Stack &stack = chaos.stack;
   ASSERT_TRUE(stack.moveAll(1, 3000));
   stack.axes[0]->homes = chaos.random() % 4 == 0;
+  stack.axes[0]->stopsHomes = seed % 3 == 1 ? static_cast<int>(1 + seed % 197) : 0;
   const auto quiet = static_cast<int>(chaos.random() % 300);
   for (int i = 0; i < quiet; ++i)
     chaos.cycle(true, 3);
