@@ -21,6 +21,26 @@ bool beginAdding(AddedMotion &added, BlockState &block, AxisRef &ref) noexcept;
 /// Covers the way of another cycle, or says in the outcome why it is over.
 void continueAdding(AddedMotion &added, BlockState &block, AxisRef &ref) noexcept;
 
+/// A call of a block that adds something: `start` begins it, and outputs show what came out.
+template <class Block, class Start> void runAdding(Block &block, Start start) noexcept {
+  BlockState &state = block.stBlock;
+  switch (beginCall(state, block.Execute != 0, block.Axis)) {
+  case Call::Start:
+    start(block, *block.Axis);
+    break;
+  case Call::Go:
+    continueAdding(block.stAdded, state, *block.Axis);
+    break;
+  case Call::Idle:
+    break;
+  }
+  block.Done = state.bDone;
+  block.Busy = state.bRunning;
+  block.CommandAborted = state.bAborted;
+  block.Error = state.iError != axis::error::kNone;
+  block.ErrorID = state.iError;
+}
+
 } // namespace stride::motion
 
 #endif

@@ -34,19 +34,5 @@ void start(Block &block, motion::AxisRef &ref) noexcept {
 } // namespace
 
 void st::SM_PLCopen::MC_HaltSuperImposed::body__(::stride::Ctx & /*ctx__*/) {
-  switch (motion::beginCall(stBlock, Execute != 0, Axis)) {
-  case motion::Call::Start:
-    start(*this, *Axis);
-    break;
-  case motion::Call::Go:
-    motion::continueAdding(stAdded, stBlock, *Axis);
-    break;
-  case motion::Call::Idle:
-    break;
-  }
-  Done = stBlock.bDone;
-  Busy = stBlock.bRunning;
-  CommandAborted = stBlock.bAborted;
-  Error = stBlock.iError != axis::error::kNone;
-  ErrorID = stBlock.iError;
+  motion::runAdding(*this, start);
 }
