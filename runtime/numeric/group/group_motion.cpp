@@ -101,7 +101,7 @@ void putAxes(GroupMotion &group, const Arm &ordered, PathPlace &place,
   for (int32_t k = 0; k < kArmAxes + ordered.more; ++k) {
     if (k >= ordered.joints && k < kArmAxes)
       continue;
-    group.axes[k] = axes[k].c[0];
+    group.axes[k] = withoutRounding(ordered.limits[k], axes[k].c[0]);
     group.velocity[k] = rests ? 0.0 : axes[k].c[1] * v;
     group.acceleration[k] = rests ? 0.0 : axes[k].c[1] * a + 2.0 * axes[k].c[2] * v * v;
     if (carried && exact::fabs(group.velocity[k]) > kTooFast * ordered.limits[k].velocity)
