@@ -49,16 +49,10 @@ template <class Block, class Read> void runReader(Ctx &ctx, Block &block, const 
   block.Busy = block.Enable;
 }
 
-inline bool goesOn(group::Outcome outcome) noexcept {
-  using group::Outcome;
-  return outcome == Outcome::Waiting || outcome == Outcome::Queued || outcome == Outcome::Active ||
-         outcome == Outcome::Interrupted;
-}
-
 /// Whether the movement of a block that has ended is being driven again, as MC_GroupContinue does.
 template <class Block> bool isContinued(const Block &block, const GroupState &state) noexcept {
   return block.stBlock.bRunning == 0 && block.Execute != 0 && block.MovementId != 0 &&
-         goesOn(group::outcomeOf(state.motion, block.stBlock.ulId));
+         group::goesOn(group::outcomeOf(state.motion, block.stBlock.ulId));
 }
 
 /// One call of a block that asks for a movement, or to halt: `fill` writes the inputs into the
@@ -99,7 +93,7 @@ template <class Block> void follow(Block &block, const GroupState &state) noexce
   using group::Outcome;
   const uint64_t id = block.stBlock.ulId;
   const Outcome outcome = group::outcomeOf(state.motion, id);
-  block.stBlock.bRunning = goesOn(outcome);
+  block.stBlock.bRunning = group::goesOn(outcome);
   block.Active = outcome == Outcome::Active;
   block.CommandAccepted = outcome == Outcome::Queued || outcome == Outcome::Active ||
                           outcome == Outcome::Done || block.CommandAccepted != 0;

@@ -201,7 +201,7 @@ static void followJog(decl::SMC_GroupJog2 &block, const GroupState &state) noexc
   if (block.stBlock.bRunning == 0)
     return;
   const group::Outcome outcome = group::outcomeOf(state.motion, block.stBlock.ulId);
-  block.stBlock.bRunning = goesOn(outcome) && outcome != group::Outcome::Interrupted;
+  block.stBlock.bRunning = group::goesOn(outcome) && outcome != group::Outcome::Interrupted;
   if (outcome == group::Outcome::Failed)
     setError(block, state.error[block.stBlock.ulId % group::kOutcomes]);
 }

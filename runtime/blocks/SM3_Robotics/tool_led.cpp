@@ -114,6 +114,8 @@ int16_t axesFor(const group::Arm &arm, const Frame<double> &pose,
   const Outcome outcome = arm.kinematics.inverse(pose, configuration, reference, axes);
   if (outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
+  for (int32_t k = 0; k < arm.joints; ++k)
+    axes[k] = group::withoutRounding(arm.limits[k], axes[k]);
   return reaches(arm, axes, pose.place) ? int16_t{0} : error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
 }
 

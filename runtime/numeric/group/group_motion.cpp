@@ -22,6 +22,21 @@ void note(GroupMotion &group, const Movement &movement, Outcome outcome) noexcep
 
 bool dwells(const Movement &movement) noexcept { return movement.order.dwell > 0.0; }
 
+/// Of a movement of long ago: what is over is forgotten for what is not, the oldest first.
+void setOldOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept {
+  OldOutcome *place = nullptr;
+  for (OldOutcome &old : group.old) {
+    if (old.id == id) {
+      old.outcome = outcome;
+      return;
+    }
+    if (!goesOn(old.outcome) && (place == nullptr || old.id < place->id))
+      place = &old;
+  }
+  if (place != nullptr && goesOn(outcome))
+    *place = {id, outcome};
+}
+
 /// Whether the motion has come to where a movement begins.
 bool hasBegun(const GroupMotion &group, int64_t number) noexcept {
   return number <= group.looked && group.motion.way >= movementAt(group, number).begin;
@@ -101,7 +116,7 @@ void putAxes(GroupMotion &group, const Arm &ordered, PathPlace &place,
   for (int32_t k = 0; k < kArmAxes + ordered.more; ++k) {
     if (k >= ordered.joints && k < kArmAxes)
       continue;
-    group.axes[k] = axes[k].c[0];
+    group.axes[k] = withoutRounding(ordered.limits[k], axes[k].c[0]);
     group.velocity[k] = rests ? 0.0 : axes[k].c[1] * v;
     group.acceleration[k] = rests ? 0.0 : axes[k].c[1] * a + 2.0 * axes[k].c[2] * v * v;
     if (carried && exact::fabs(group.velocity[k]) > kTooFast * ordered.limits[k].velocity)
@@ -180,7 +195,9 @@ void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
   const uint64_t lastId = group.lastId;
   const int64_t epoch = group.epoch;
   uint8_t outcomes[kOutcomes];
+  OldOutcome old[kOldOutcomes];
   __builtin_memcpy(outcomes, group.outcome, sizeof outcomes);
+  __builtin_memcpy(old, group.old, sizeof old);
   const Ride ride = group.ride;
   const Ride left = isStill(group.left) ? Ride{} : group.left;
   const Pose tool = group.tool;
@@ -191,6 +208,7 @@ void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
   group.lastId = lastId;
   group.epoch = epoch + 1;
   __builtin_memcpy(group.outcome, outcomes, sizeof outcomes);
+  __builtin_memcpy(group.old, old, sizeof old);
   path::reset(group.motion, kSettings);
   for (int32_t k = 0; k < kAxes; ++k)
     group.axes[k] = axes[k];
@@ -199,9 +217,15 @@ void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
 void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept {
   if (group.lastId - id < kOutcomes)
     group.outcome[id % kOutcomes] = static_cast<uint8_t>(outcome);
+  else
+    setOldOutcome(group, id, outcome);
 }
 
 uint64_t drawId(GroupMotion &group) noexcept {
+  const uint64_t oldest = group.lastId - kOutcomes + 1; // its place is taken
+  const Outcome before = group.lastId >= kOutcomes ? outcomeOf(group, oldest) : Outcome::Unknown;
+  if (goesOn(before))
+    setOldOutcome(group, oldest, before);
   ++group.lastId;
   setOutcome(group, group.lastId, Outcome::Waiting);
   return group.lastId;
@@ -229,8 +253,14 @@ void append(GroupMotion &group, uint64_t id, const Leg &leg, const Order &order)
 }
 
 Outcome outcomeOf(const GroupMotion &group, uint64_t id) noexcept {
-  if (id == 0 || id > group.lastId || group.lastId - id >= kOutcomes)
+  if (id == 0 || id > group.lastId)
     return Outcome::Unknown;
+  if (group.lastId - id >= kOutcomes) {
+    for (const OldOutcome &old : group.old)
+      if (old.id == id)
+        return old.outcome;
+    return Outcome::Unknown;
+  }
   return static_cast<Outcome>(group.outcome[id % kOutcomes]);
 }
 

@@ -19,6 +19,8 @@ namespace stride::group {
 inline constexpr int32_t kMovements = 32;
 /// Of how many the newest movements the outcome is remembered.
 inline constexpr int32_t kOutcomes = 256;
+/// Of how many older ones that were not over by then: those that have been kept to be gone on with.
+inline constexpr int32_t kOldOutcomes = 64;
 
 /// How a movement follows the one before it.
 enum class Transition : uint8_t {
@@ -124,6 +126,12 @@ inline path::Braking brakingOf(const GroupCommand &command) noexcept {
   return {command.deceleration, command.jerk, command.accelerationPart, command.jerkPart};
 }
 
+/// What has become of a movement of which too many others have been commanded since.
+struct OldOutcome {
+  uint64_t id; ///< 0: none.
+  Outcome outcome;
+};
+
 /// Trivially copyable, may be moved in memory between two calls.
 struct GroupMotion {
   path::Motion motion;
@@ -140,6 +148,7 @@ struct GroupMotion {
   double dwell;                  ///< Time that is left to wait. [s]
   uint64_t lastId;               ///< Of movements.
   uint8_t outcome[kOutcomes];    ///< By id.
+  OldOutcome old[kOldOutcomes];  ///< In no order.
   Obstacle obstacle;             ///< Why the path does not go on.
   Ride ride;                     ///< The system in which the path is, if that moves.
   Ride left;                     ///< The one in which it was before, until that rests.
@@ -173,7 +182,13 @@ uint64_t drawId(GroupMotion &group) noexcept;
 /// room.
 void append(GroupMotion &group, uint64_t id, const Leg &leg, const Order &order) noexcept;
 
-/// Says what has become of a movement, unless that was long ago.
+/// Whether a movement is not over.
+inline bool goesOn(Outcome outcome) noexcept {
+  return outcome == Outcome::Waiting || outcome == Outcome::Queued || outcome == Outcome::Active ||
+         outcome == Outcome::Interrupted;
+}
+
+/// Says what has become of a movement, unless it was over long ago.
 void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept;
 
 /// What has become of a movement.

@@ -99,6 +99,9 @@ void abortInterrupted(GroupMotion &group) noexcept {
   for (uint8_t &outcome : group.outcome)
     if (outcome == static_cast<uint8_t>(Outcome::Interrupted))
       outcome = static_cast<uint8_t>(Outcome::Aborted);
+  for (OldOutcome &old : group.old)
+    if (old.outcome == Outcome::Interrupted)
+      old.outcome = Outcome::Aborted;
 }
 
 } // namespace stride::group

@@ -440,8 +440,8 @@ Obstacle axesAt(const Arm &arm, const PathPlace &place, const double (&reference
       return Obstacle::Unreachable;
     if (!exact::isfinite(axis.c[1]) || !exact::isfinite(axis.c[2]) || !exact::isfinite(axis.c[3]))
       return Obstacle::Singular;
-    const double slack = 1e-9 * (fabs(arm.limits[k].low) + fabs(arm.limits[k].high));
-    if (axis.c[0] < arm.limits[k].low - slack || axis.c[0] > arm.limits[k].high + slack)
+    const double place = withoutRounding(arm.limits[k], axis.c[0]);
+    if (place < arm.limits[k].low || place > arm.limits[k].high)
       return Obstacle::AxisLimit;
   }
   return Obstacle::None;

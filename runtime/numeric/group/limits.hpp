@@ -19,6 +19,18 @@ struct AxisLimits {
   double low, high;    ///< Where it may be. [u]
 };
 
+/// Where an axis is, if rounding by the kinematics has not taken it a little beyond its range: who
+/// supervises it knows no slack. What is further beyond stays there. [u]
+inline double withoutRounding(const AxisLimits &limits, double axis) noexcept {
+  constexpr double kSlack = 1e-9;
+  const auto amount = [](double limit) {
+    return exact::isfinite(limit) ? exact::fabs(limit) : 0.0;
+  };
+  const double slack = kSlack * (amount(limits.low) + amount(limits.high));
+  const double within = exact::smaller(exact::larger(axis, limits.low), limits.high);
+  return axis < limits.low - slack || axis > limits.high + slack ? axis : within;
+}
+
 /// What a command allows of the tool's motion along its path; the units are those of the way of its
 /// leg. All greater than 0. Trivially copyable.
 struct PathLimits {

@@ -150,8 +150,6 @@ Cuts cutsOf(const GroupMotion &group, const Arm &arm, const Movement &before,
     return {0.0, 0.0};
   const Cuts cuts{smaller(mostBefore, order.transitionValue * rampOf(group, arm, before, true).way),
                   smaller(mostAfter, order.transitionValue * rampOf(group, arm, after, false).way)};
-  if (!leadsTool(before.leg) || !leadsTool(after.leg))
-    return cuts;
   // A corner that took far more of the one would bend at its very end, and be crept through.
   constexpr double kMostTimes = 16.0;
   return {smaller(cuts.before, kMostTimes * cuts.after),
