@@ -125,6 +125,33 @@ END_PROGRAM
   EXPECT_EQ(once, "user/Once.cpp user/Acts.cpp user/Main.cpp ");
 }
 
+TEST(CodegenChoices, SaysWhichSourcesComputeWithArraysOfReals) {
+  const auto isNumeric = [](const std::string &loops, const std::string &method = "") {
+    const auto files =
+        generate({{"Main.st", "FUNCTION_BLOCK Sums VAR a : ARRAY[0..9] OF LREAL; n : "
+                              "ARRAY[0..9] OF DINT; i, j : DINT; x, y : LREAL; "
+                              "END_VAR\n" +
+                                  loops + "\nMETHOD Go\n" + method +
+                                  "\nEND_METHOD\nEND_FUNCTION_BLOCK\nPROGRAM Main "
+                                  "VAR s : Sums; END_VAR s(); END_PROGRAM\n"}});
+    for (const GeneratedFile &file : files)
+      if (file.path == "user/Sums.cpp")
+        return file.isNumeric;
+    return false;
+  };
+  const std::string head = "FOR i := 0 TO 9 DO WHILE j < 9 DO ";
+  const std::string tail = " j := j + 1; END_WHILE END_FOR";
+  EXPECT_TRUE(isNumeric(head + "x := x + a[j];" + tail));
+  EXPECT_TRUE(isNumeric("", head + "IF x > y THEN a[j] := x * a[j]; END_IF" + tail));
+  EXPECT_FALSE(isNumeric(head + "x := x + y;" + tail));
+  EXPECT_FALSE(isNumeric(head + "x := a[j];" + tail));
+  EXPECT_FALSE(isNumeric(head + "i := i + n[j];" + tail));
+  EXPECT_FALSE(isNumeric("FOR i := 0 TO 9 DO x := x + a[j]; END_FOR"));
+  EXPECT_FALSE(isNumeric("FOR i := 0 TO 9 DO " +
+                         std::string("WHILE j < 9 DO j := j + 1; END_WHILE") +
+                         " x := x + a[i]; END_FOR"));
+}
+
 TEST(CodegenChoices, TinyBodiesAreInlinedEverywhere) {
   const auto main = [](const std::string &body) {
     return mainOf("FUNCTION F : INT VAR_INPUT n : INT; END_VAR " + body +
