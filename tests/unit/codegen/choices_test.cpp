@@ -236,6 +236,28 @@ TEST(CodegenChoices, LocalsWithAValueHaveTheirOwnLine) {
   EXPECT_THAT(text, HasSubstr("#line 4\n  ::stride::INT b = 3;"));
 }
 
+TEST(CodegenChoices, BodiesThatFailOnlyWhereAnInOutLeadsNowherePutNothingBack) {
+  const auto passes = [](const std::string &body) {
+    const std::string text = mainOf(R"(
+FUNCTION_BLOCK Led
+VAR_IN_OUT led : LINT; all : ARRAY[0..3] OF LINT; END_VAR
+VAR i : DINT; END_VAR
+)" + body + R"(
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR led : Led; x : LINT; all : ARRAY[0..3] OF LINT; i, n : DINT; END_VAR
+FOR i := 1 TO 10 DO n := n + i; led(led := x, all := all); END_FOR
+END_PROGRAM
+)");
+    return text.find("== nullptr ? static_cast<::stride::Ctx &>(loop__") != std::string::npos;
+  };
+  EXPECT_TRUE(passes("led := led + all[2];"));
+  EXPECT_TRUE(passes("IF led > 3 THEN all[1] := led; RETURN; END_IF"));
+  EXPECT_FALSE(passes("all[i] := led;"));
+  EXPECT_FALSE(passes("led := led / all[0];"));
+  EXPECT_FALSE(passes("WHILE led > 0 DO led := led - 1; END_WHILE"));
+}
+
 TEST(CodegenChoices, LoopsKeepVariablesOverCallsOfInstancesThatAreKnown) {
   const auto keeps = [](const std::string &call) {
     const std::string text = mainOf(R"(
