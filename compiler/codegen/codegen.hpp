@@ -20,6 +20,8 @@ struct GeneratedFile {
   /// much time for it.
   bool runsOnce = false;
   size_t tables = 0; ///< bytes of the text that are numbers in tables
+  /// A loop in it computes with arrays of reals within another one.
+  bool isNumeric = false;
 };
 
 /// How a task is started.

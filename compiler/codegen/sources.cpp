@@ -1,5 +1,6 @@
 // Sources: one per POU, one for the initial values of structures and variable lists.
 
+#include "compiler/codegen/analysis/numeric_loops.hpp"
 #include "compiler/codegen/cpp/inlining.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/alignment.hpp"
@@ -124,6 +125,13 @@ bool runsOnce(Context &context, const PouSymbol *p) {
                      [&](const PouSymbol *m) { return context.repetition.runsOnce(m); });
 }
 
+bool isNumeric(const PouSymbol *p) {
+  const auto has = [](const PouSymbol *one) {
+    return !one->decl->external && one->checked && hasNumericLoop(one->decl->body);
+  };
+  return has(p) || std::any_of(p->methods.begin(), p->methods.end(), has);
+}
+
 void pou(Context &context, const PouSymbol *p, std::vector<GeneratedFile> &files) {
   GeneratedSource source(context, p, context.names.source(p));
   if (!p->isFunction())
@@ -147,6 +155,7 @@ void pou(Context &context, const PouSymbol *p, std::vector<GeneratedFile> &files
   }
   files.push_back(source.finish(p, p->name.text));
   files.back().runsOnce = runsOnce(context, p);
+  files.back().isNumeric = isNumeric(p);
 }
 
 } // namespace

@@ -132,8 +132,7 @@ private:
       return false;
     }
     toolchain_.installation = *found;
-    toolchain_.compileFlags = compileFlags(*found, options_.debug, false);
-    toolchain_.onceFlags = compileFlags(*found, options_.debug, true);
+    setFlags(toolchain_, *found, options_.debug);
     return findCompiler();
   }
 
@@ -184,7 +183,8 @@ private:
   /// With a key of everything that it depends on.
   Unit unitOf(const TranslationUnit &unit, size_t number) {
     ContentHash hash = base_;
-    hash.add(uint64_t{unit.runsOnce}).add(uint64_t{precompilesHeaders(toolchain_, units_.size())});
+    hash.add(uint64_t{unit.runsOnce}).add(uint64_t{unit.isNumeric});
+    hash.add(uint64_t{precompilesHeaders(toolchain_, units_.size())});
     size_t bytes = 0;
     for (const GeneratedFile *file : includes_->closureOf(unit.path)) {
       hash.add(includes_->hashOf(*file));
@@ -311,7 +311,7 @@ private:
 
   std::vector<std::string> compileCommand(const Unit &unit) const {
     std::vector<std::string> command =
-        compilerWith(unit.source->runsOnce ? toolchain_.onceFlags : toolchain_.compileFlags);
+        compilerWith(toolchain_.flagsOf(unit.source->runsOnce, unit.source->isNumeric));
     if (precompilesHeaders(toolchain_, units_.size()))
       command.insert(command.end(), {"-include", (sources_ / kPrecompiledHeaders).string()});
     command.insert(command.end(),

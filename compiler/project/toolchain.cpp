@@ -156,7 +156,8 @@ bool findLauncher(Launcher launcher, Toolchain &toolchain, Diagnostics &diagnost
   return false;
 }
 
-std::vector<std::string> compileFlags(const Installation &installation, bool debug, bool runsOnce) {
+static std::vector<std::string> flagsFor(const Installation &installation, bool debug,
+                                         bool runsOnce, bool isNumeric) {
   std::vector<std::string> flags(std::begin(kFixedFlags), std::end(kFixedFlags));
   if (debug)
     flags.insert(flags.end(), {"-O0", "-g"});
@@ -177,9 +178,19 @@ std::vector<std::string> compileFlags(const Installation &installation, bool deb
     flags.insert(flags.end(),
                  {"-O1", "-fno-tree-fre", "-fno-tree-dominator-opts", "-fno-tree-dse",
                   "-fno-tree-pta", "-fno-ipa-modref", "-fno-tree-sink", "-fno-tree-forwprop"});
+  // Sums in loops wait less for each other (fft takes 0.94 of the time); it costs 3 to 5 % of the
+  // compiler's time, and no other loops are quicker.
+  if (!debug && isNumeric)
+    flags.emplace_back("-frename-registers");
   // The installation has the last word: one with sanitizers does not optimise.
   flags.insert(flags.end(), installation.compileFlags.begin(), installation.compileFlags.end());
   return flags;
+}
+
+void setFlags(Toolchain &toolchain, const Installation &installation, bool debug) {
+  toolchain.compileFlags = flagsFor(installation, debug, false, false);
+  toolchain.onceFlags = flagsFor(installation, debug, true, false);
+  toolchain.numericFlags = flagsFor(installation, debug, false, true);
 }
 
 std::vector<std::string> linkCommand(const Toolchain &toolchain, bool isStatic, bool isCross,
@@ -216,6 +227,8 @@ ContentHash identityOf(const Toolchain &toolchain, const UserCache &cache, const
   for (const std::string &flag : toolchain.compileFlags)
     hash.add(flag);
   for (const std::string &flag : toolchain.onceFlags)
+    hash.add(flag);
+  for (const std::string &flag : toolchain.numericFlags)
     hash.add(flag);
   hash.add(toolchain.launcher.filename().string()); // another machine may have compiled it
   for (const char *variable : kVariables)

@@ -20,7 +20,13 @@ struct Toolchain {
   std::filesystem::path launcher; ///< what starts it, absolute; empty: nothing
   /// All but include folders, mapped paths, input and output.
   std::vector<std::string> compileFlags;
-  std::vector<std::string> onceFlags; ///< the same for units that run once in a cycle
+  std::vector<std::string> onceFlags;    ///< the same for units that run once in a cycle
+  std::vector<std::string> numericFlags; ///< the same for units that compute with arrays of reals
+
+  /// As TranslationUnit has it.
+  [[nodiscard]] const std::vector<std::string> &flagsOf(bool runsOnce, bool isNumeric) const {
+    return runsOnce ? onceFlags : isNumeric ? numericFlags : compileFlags;
+  }
 };
 
 /// Path of a program as execvp finds it, absolute; or empty.
@@ -30,10 +36,9 @@ struct Toolchain {
 /// installed, which has been reported.
 [[nodiscard]] bool findLauncher(Launcher launcher, Toolchain &toolchain, Diagnostics &diagnostics);
 
-/// The flags that generated code is compiled with; `debug`: quick to compile and for the debugger;
-/// `runsOnce`: as TranslationUnit has it.
-[[nodiscard]] std::vector<std::string> compileFlags(const Installation &installation, bool debug,
-                                                    bool runsOnce);
+/// Sets the flags that generated code is compiled with; `debug`: quick to compile and for the
+/// debugger.
+void setFlags(Toolchain &toolchain, const Installation &installation, bool debug);
 
 /// The command that makes the application `linked` of the objects: a library, or a program that
 /// needs none (`isStatic`); `isCross`: for another machine.

@@ -74,7 +74,7 @@ public:
       std::vector<Source> sources[2]; // by runsOnce
       for (const GeneratedFile *file : all) {
         if (isApplication(*file) || weightOf(*file) > mostBytes(file->runsOnce))
-          units_.push_back({file->path, titleOf(file->path), runsOnce(*file)});
+          units_.push_back({file->path, titleOf(file->path), runsOnce(*file), file->isNumeric});
         else
           sources[file->runsOnce ? 1 : 0].push_back({bitsOf(file->path), file});
       }
@@ -116,8 +116,8 @@ private:
 
   void add(std::string_view name, const std::vector<const GeneratedFile *> &sources) {
     if (sources.size() == 1) {
-      units_.push_back(
-          {sources.front()->path, titleOf(sources.front()->path), runsOnce(*sources.front())});
+      units_.push_back({sources.front()->path, titleOf(sources.front()->path),
+                        runsOnce(*sources.front()), sources.front()->isNumeric});
       return;
     }
     // Their small bodies are here anyway, and need not be given to callers once more.
@@ -132,7 +132,9 @@ private:
         {unit.path,
          fmt::format("{} and {} more", titleOf(sources.front()->path), sources.size() - 1),
          std::all_of(sources.begin(), sources.end(),
-                     [](const GeneratedFile *file) { return runsOnce(*file); })});
+                     [](const GeneratedFile *file) { return runsOnce(*file); }),
+         std::any_of(sources.begin(), sources.end(),
+                     [](const GeneratedFile *file) { return file->isNumeric; })});
     added_.push_back(std::move(unit));
   }
 

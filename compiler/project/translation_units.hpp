@@ -11,9 +11,10 @@ namespace stc {
 
 /// What one call of the C++ compiler compiles.
 struct TranslationUnit {
-  std::string path;      ///< of its source
-  std::string title;     ///< for progress
-  bool runsOnce = false; ///< as all of its sources do
+  std::string path;       ///< of its source
+  std::string title;      ///< for progress
+  bool runsOnce = false;  ///< as all of its sources do
+  bool isNumeric = false; ///< as one of its sources is
 };
 
 /// Divides the sources among `files` into translation units, since a call of the compiler costs as

@@ -101,6 +101,18 @@ TEST(TranslationUnits, WhatRunsOnceIsApartInLargeProjects) {
   EXPECT_TRUE(divideIntoUnits(files).at(0).runsOnce);
 }
 
+TEST(TranslationUnits, OneNumericSourceMakesItsUnitNumeric) {
+  std::vector<GeneratedFile> files = {{"app.cpp", "t"}, source("Sums", 3000), source("Rest", 3000)};
+  EXPECT_FALSE(divideIntoUnits(files).at(0).isNumeric);
+  files = {
+      {"app.cpp", "t"}, source("Sums", 3000), source("Large", kMost + 1), source("Rest", 3000)};
+  files[1].isNumeric = true;
+  size_t numeric = 0;
+  for (const TranslationUnit &unit : divideIntoUnits(files))
+    numeric += unit.isNumeric ? 1 : 0;
+  EXPECT_EQ(numeric, 1U);
+}
+
 TEST(TranslationUnits, OneByteMoreAndTheApplicationIsApart) {
   std::vector<GeneratedFile> files = {{"app.cpp", std::string(16000, 't')},
                                       {"build.cpp", std::string(1600, 't')},

@@ -39,6 +39,8 @@ public:
   [[nodiscard]] unsigned targetEffects(const ast::Expr *target, const PouSymbol *body);
   /// The same of the instance or interface whose method is called.
   [[nodiscard]] unsigned objectEffects(const ast::Expr *object, const PouSymbol *body);
+  /// The in-outs of the block are known to be bound: nothing raises where they are followed.
+  void assumeBound(const PouSymbol *block) { bound_ = block; }
   /// A FUNCTION that only computes: it changes nothing but its own variables.
   [[nodiscard]] bool pure(const PouSymbol *function);
   /// Evaluating `first` before `second` or after it makes a difference for their values.
@@ -96,6 +98,7 @@ public:
   [[nodiscard]] bool provenIndex(const ast::Expr *index, const ArrayType *array) const;
 
 private:
+  [[nodiscard]] bool followsSlot(const Symbol *symbol) const;
   unsigned checkedBy(ImplicitCheck first, ImplicitCheck last);
   unsigned following();
   unsigned indexing(const ast::IndexExpr *e);
@@ -134,6 +137,7 @@ private:
   [[nodiscard]] std::optional<Interval> intervalOf(const ast::BinaryExpr *e, unsigned depth) const;
 
   bool checks_;
+  const PouSymbol *bound_ = nullptr;
   const ImplicitChecks &ownChecks_;
   const Sharing &sharing_;
   std::vector<Range> ranges_;

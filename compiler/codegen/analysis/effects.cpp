@@ -83,12 +83,6 @@ bool isSelf(const Expr *pointer) {
   return symbol != nullptr && symbol->kind == SymbolKind::Self;
 }
 
-/// Reading the variable goes through a slot that holds an address.
-bool followsSlot(const Symbol *symbol) {
-  return symbol != nullptr && symbol->kind == SymbolKind::Variable &&
-         isIndirect(static_cast<const VarSymbol *>(symbol));
-}
-
 /// The in-out of the function, method or body whose code it is: the same place as long as the call
 /// lasts.
 bool isFixed(const VarSymbol *variable, const PouSymbol *body) {
@@ -96,6 +90,14 @@ bool isFixed(const VarSymbol *variable, const PouSymbol *body) {
 }
 
 } // namespace
+
+/// Reading the variable goes through a slot that holds an address, perhaps none.
+bool Analysis::followsSlot(const Symbol *symbol) const {
+  if (symbol == nullptr || symbol->kind != SymbolKind::Variable)
+    return false;
+  const auto *v = static_cast<const VarSymbol *>(symbol);
+  return isIndirect(v) && (bound_ == nullptr || !isFixed(v, bound_));
+}
 
 unsigned Analysis::checkedBy(ImplicitCheck first, ImplicitCheck last) {
   if (!checks_)

@@ -56,12 +56,17 @@ bool PlainCalls::find(const PouSymbol *block) {
   if (!block->isBlock() || block->base != nullptr || block->extended || block->isAbstract() ||
       block->decl->external || !block->checked || hasOwnChecks_)
     return false;
-  // What in-outs are bound to is looked at where the body begins, and the end of the data stack.
+  // The end of the data stack is looked at where the body begins, and the bounds of ARRAY[*].
   const auto raises = [&](const VarSymbol *v) {
-    return isIndirect(v) || (v->section == Section::Temp && addressed_.onDataStack(v));
+    return v->type->kind == TypeKind::Reference || v->type->kind == TypeKind::OpenArray ||
+           (v->section == Section::Temp && addressed_.onDataStack(v));
   };
-  return std::none_of(block->variables.begin(), block->variables.end(), raises) &&
-         this->block(block->decl->body, block);
+  if (std::any_of(block->variables.begin(), block->variables.end(), raises))
+    return false;
+  analysis_.assumeBound(block);
+  const bool ends = this->block(block->decl->body, block);
+  analysis_.assumeBound(nullptr);
+  return ends;
 }
 
 bool PlainCalls::block(Block block, const PouSymbol *pou) {

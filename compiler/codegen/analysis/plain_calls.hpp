@@ -14,9 +14,9 @@ class PlainCalls {
 public:
   PlainCalls(const Program &program, Addressed &addressed);
 
-  /// No check in the body of the block can fail, whether checks are on or not, no loop of it can
-  /// use up the loop budget, and it calls nothing but built-in functions. The variables of its
-  /// caller are not its concern: LoopLocals knows whether it reaches them.
+  /// No check in the body of the block can fail, whether checks are on or not, if its in-outs are
+  /// bound; no loop of it can use up the loop budget, and it calls nothing but built-in functions.
+  /// The variables of its caller are not its concern: LoopLocals knows whether it reaches them.
   [[nodiscard]] bool alwaysEnds(const PouSymbol *block);
   /// The loop calls such a block that reads the clock.
   [[nodiscard]] bool readsClock(const ast::Stmt *loop);

@@ -274,7 +274,7 @@ public:
         isBodyDispatched(e_->pou) && !isExact(e_->callee) && !isSuper(e_->callee); // SUPER^()
     const bool ends = !isProgram_ && !dispatch && cx_.run.plainCalls.alwaysEnds(e_->pou);
     cx_.out << instance_ << (dispatch ? ".body__call(" : ".body__(")
-            << (ends ? cx_.plainContext() : cx_.ctx()) << ");";
+            << (ends ? contextWhereBound() : std::string(cx_.ctx())) << ");";
     give();
     cx_.out << (braces ? " }" : "");
   }
@@ -292,6 +292,20 @@ private:
     return (!isProgram_ && (containerOf(e_->callee)->kind == ExprKind::Index ||
                             analysis.placeEffects(e_->callee, cx_.pou) != kEffectNone)) ||
            std::any_of(e_->arguments.begin(), e_->arguments.end(), takes);
+  }
+
+  /// What stands for the context of a body that always ends where its in-outs are bound: where one
+  /// is not, that which puts the loop's locals back.
+  [[nodiscard]] std::string contextWhereBound() {
+    std::string isUnbound;
+    for (const VarSymbol *v : e_->pou->variables)
+      if (v->section == Section::InOut)
+        isUnbound += (isUnbound.empty() ? "" : " || ") + field(v) + " == nullptr";
+    if (isUnbound.empty() || cx_.modes.loops.locals.empty())
+      return std::string(isUnbound.empty() ? cx_.plainContext() : cx_.ctx());
+    const std::string saving(cx_.ctx());
+    return isUnbound + " ? static_cast<::stride::Ctx &>(" + saving +
+           ") : " + std::string(cx_.plainContext());
   }
 
   [[nodiscard]] std::string field(const VarSymbol *p) const {

@@ -125,6 +125,33 @@ END_PROGRAM
   EXPECT_EQ(once, "user/Once.cpp user/Acts.cpp user/Main.cpp ");
 }
 
+TEST(CodegenChoices, SaysWhichSourcesComputeWithArraysOfReals) {
+  const auto isNumeric = [](const std::string &loops, const std::string &method = "") {
+    const auto files =
+        generate({{"Main.st", "FUNCTION_BLOCK Sums VAR a : ARRAY[0..9] OF LREAL; n : "
+                              "ARRAY[0..9] OF DINT; i, j : DINT; x, y : LREAL; "
+                              "END_VAR\n" +
+                                  loops + "\nMETHOD Go\n" + method +
+                                  "\nEND_METHOD\nEND_FUNCTION_BLOCK\nPROGRAM Main "
+                                  "VAR s : Sums; END_VAR s(); END_PROGRAM\n"}});
+    for (const GeneratedFile &file : files)
+      if (file.path == "user/Sums.cpp")
+        return file.isNumeric;
+    return false;
+  };
+  const std::string head = "FOR i := 0 TO 9 DO WHILE j < 9 DO ";
+  const std::string tail = " j := j + 1; END_WHILE END_FOR";
+  EXPECT_TRUE(isNumeric(head + "x := x + a[j];" + tail));
+  EXPECT_TRUE(isNumeric("", head + "IF x > y THEN a[j] := x * a[j]; END_IF" + tail));
+  EXPECT_FALSE(isNumeric(head + "x := x + y;" + tail));
+  EXPECT_FALSE(isNumeric(head + "x := a[j];" + tail));
+  EXPECT_FALSE(isNumeric(head + "i := i + n[j];" + tail));
+  EXPECT_FALSE(isNumeric("FOR i := 0 TO 9 DO x := x + a[j]; END_FOR"));
+  EXPECT_FALSE(isNumeric("FOR i := 0 TO 9 DO " +
+                         std::string("WHILE j < 9 DO j := j + 1; END_WHILE") +
+                         " x := x + a[i]; END_FOR"));
+}
+
 TEST(CodegenChoices, TinyBodiesAreInlinedEverywhere) {
   const auto main = [](const std::string &body) {
     return mainOf("FUNCTION F : INT VAR_INPUT n : INT; END_VAR " + body +
@@ -207,6 +234,28 @@ TEST(CodegenChoices, LocalsWithAValueHaveTheirOwnLine) {
   // A debugger stops where a value is given, and else at the first statement.
   EXPECT_THAT(text, HasSubstr("#line 6\n  ::stride::INT a{};"));
   EXPECT_THAT(text, HasSubstr("#line 4\n  ::stride::INT b = 3;"));
+}
+
+TEST(CodegenChoices, BodiesThatFailOnlyWhereAnInOutLeadsNowherePutNothingBack) {
+  const auto passes = [](const std::string &body) {
+    const std::string text = mainOf(R"(
+FUNCTION_BLOCK Led
+VAR_IN_OUT led : LINT; all : ARRAY[0..3] OF LINT; END_VAR
+VAR i : DINT; END_VAR
+)" + body + R"(
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR led : Led; x : LINT; all : ARRAY[0..3] OF LINT; i, n : DINT; END_VAR
+FOR i := 1 TO 10 DO n := n + i; led(led := x, all := all); END_FOR
+END_PROGRAM
+)");
+    return text.find("== nullptr ? static_cast<::stride::Ctx &>(loop__") != std::string::npos;
+  };
+  EXPECT_TRUE(passes("led := led + all[2];"));
+  EXPECT_TRUE(passes("IF led > 3 THEN all[1] := led; RETURN; END_IF"));
+  EXPECT_FALSE(passes("all[i] := led;"));
+  EXPECT_FALSE(passes("led := led / all[0];"));
+  EXPECT_FALSE(passes("WHILE led > 0 DO led := led - 1; END_WHILE"));
 }
 
 TEST(CodegenChoices, LoopsKeepVariablesOverCallsOfInstancesThatAreKnown) {
