@@ -105,17 +105,14 @@ WayState move(Motion &motion, double time, bool pass) noexcept {
 }
 
 void comeByRounding(Motion &motion) noexcept {
-  constexpr double kUnits = 5e-14; // 225 units in the last place; plans fail up to 160
-  const Course &course = motion.course;
-  if (!isAtRest(motion) || motion.wish.stop || course.first == course.next)
+  if (!isAtRest(motion) || motion.wish.stop)
     return;
-  const Strip &strip = stripAt(course, stripOf(course, motion.way));
-  const double left = strip.end - motion.way;
-  if (!(left > 0.0 && left <= kUnits * motion.way))
+  const Strip *const strip = endedByRounding(motion.course, motion.way);
+  if (strip == nullptr)
     return;
-  motion.way = strip.end;
-  motion.resting = strip.stop;
-  motion.gate = strip.gate;
+  motion.way = strip->end;
+  motion.resting = strip->stop;
+  motion.gate = strip->gate;
 }
 
 void freeze(Motion &motion) noexcept {
