@@ -385,7 +385,8 @@ TEST(CncChain, DrivesThePathWhateverIsCalledWhen) {
 }
 
 TEST(CncChain, DrivesThePathWhereItOnceDidNot) {
-  driveCase(9184); // a single step ended at an M function, which the motion then went past
+  driveCase(9184);   // a single step ended at an M function, which the motion then went past
+  driveCase(11'866); // a plan began 4e-15 before the stop at a dwell, and went past it
   driveCase(9248); // it came to a dwell by rounding, before its time was over, and stayed for ever
 }
 

@@ -10,14 +10,17 @@
 
 #include "st/SM_CNC/SMC_CNC_REF.h"
 #include "st/SM_CNC/SMC_CheckVelocities.h"
+#include "st/SM_CNC/SMC_ExtendedVelocityChecks.h"
 #include "st/SM_CNC/SMC_GCODE_WORD.h"
 #include "st/SM_CNC/SMC_GEOINFO.h"
 #include "st/SM_CNC/SMC_Interpolator.h"
 #include "st/SM_CNC/SMC_LimitCircularVelocities.h"
+#include "st/SM_CNC/SMC_LimitDynamics.h"
 #include "st/SM_CNC/SMC_NCDecoder.h"
 #include "st/SM_CNC/SMC_ObjectSplitter.h"
 #include "st/SM_CNC/SMC_RotateQueue2D.h"
 #include "st/SM_CNC/SMC_RoundPath.h"
+#include "st/SM_CNC/SMC_SmoothBSpline.h"
 #include "st/SM_CNC/SMC_SmoothMerge.h"
 #include "st/SM_CNC/SMC_SmoothPath.h"
 #include "st/SM_CNC/SMC_ToolRadiusCorr.h"
@@ -65,6 +68,11 @@ ProcessorBlock processorBlock(size_t places, const std::function<void(Block &)> 
   return result;
 }
 
+/// What SMC_LimitDynamics limits: X, Y, Z, A and P.
+inline constexpr uint16_t kLimitedAxes = 0x4F;
+inline constexpr double kLimitedVelocity = 30;      // [u/s]
+inline constexpr double kLimitedAcceleration = 200; // [u/s^2]
+
 inline ProcessorBlock processorOf(char name, size_t places) {
   namespace decl = ::st::SM_CNC;
   switch (name) {
@@ -79,6 +87,16 @@ inline ProcessorBlock processorOf(char name, size_t places) {
                                                     [](auto &b) { b.dSplittingParameter = 4; });
   case 't':
     return processorBlock<decl::SMC_ToolRadiusCorr>(places, [](auto &b) { b.dToolRadius = 0.5; });
+  case 'b':
+    return processorBlock<decl::SMC_SmoothBSpline>(places, [](auto & /*b*/) {});
+  case 'e':
+    return processorBlock<decl::SMC_ExtendedVelocityChecks>(places, [](auto & /*b*/) {});
+  case 'l':
+    return processorBlock<decl::SMC_LimitDynamics>(places, [](auto &b) {
+      b.wAxis = kLimitedAxes;
+      b.dMaxVel = kLimitedVelocity;
+      b.dMaxAccDec = kLimitedAcceleration;
+    });
   case 'R':
     return processorBlock<decl::SMC_RotateQueue2D>(places, [](auto &b) { b.dPhi = 30; });
   default:

@@ -8,7 +8,7 @@ namespace {
 
 using numeric::norm;
 
-constexpr int kTrials = 60; ///< For the way at an X.
+constexpr int kTrials = 120; ///< For the way at an X.
 
 void fail(XFollower &follower, XError error) noexcept {
   follower.phase = XPhase::Failed;
@@ -73,11 +73,13 @@ bool begin(XFollower &follower, Queue *queue, bool forward) noexcept {
 }
 
 /// The way where the object's X is `x`, between two ways where it is on either side: Newton's
-/// steps, halves where these leave the range.
+/// steps, halves where these leave the range or do not become half as long each time. In a bend
+/// they would go to and fro on both sides of the place.
 double wayAt(const path::Segment &segment, double x, bool forward) noexcept {
   double low = 0.0;
   double high = segment.length;
   double way = 0.5 * high;
+  double step = high;
   for (int trial = 0; trial < kTrials; ++trial) {
     const path::PathPoint point = path::pointAt(segment, way);
     const double off = point.at[kAxisX] - x;
@@ -86,9 +88,11 @@ double wayAt(const path::Segment &segment, double x, bool forward) noexcept {
     ((off > 0.0) == forward ? high : low) = way;
     const double next = way - off / point.d1[kAxisX];
     const double before = way;
-    way = next > low && next < high ? next : 0.5 * (low + high);
+    const bool closes = next > low && next < high && exact::fabs(next - before) < 0.5 * step;
+    way = closes ? next : 0.5 * (low + high);
     if (way == before)
       break;
+    step = exact::fabs(way - before);
   }
   return way;
 }

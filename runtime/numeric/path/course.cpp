@@ -71,4 +71,13 @@ int64_t stripOf(const Course &course, double way) noexcept {
   return low;
 }
 
+const Strip *endedByRounding(const Course &course, double way) noexcept {
+  constexpr double kUnits = 5e-14; // 225 units in the last place; plans fail up to 160
+  if (course.first == course.next)
+    return nullptr;
+  const Strip &strip = stripAt(course, stripOf(course, way));
+  const double left = strip.end - way;
+  return left > 0.0 && left <= kUnits * way ? &strip : nullptr;
+}
+
 } // namespace stride::path

@@ -112,6 +112,9 @@ bool append(Course &course, const Strip &strip, double time) noexcept;
 /// The number of the strip that holds a way: the first one that ends after it, or the last one.
 int64_t stripOf(const Course &course, double way) noexcept;
 
+/// The strip at whose end a motion is that rests just before it by rounding; null: none. [u] in
+const Strip *endedByRounding(const Course &course, double way) noexcept;
+
 /// Forgets the strips that end at or before a way, which must not be greater than endOf. [u]
 void forgetBefore(Course &course, double way) noexcept;
 

@@ -1,9 +1,14 @@
 // A path that follows the X of a workpiece.
 #include "runtime/numeric/cnc/x_interpolator.hpp"
 
+#include "tests/support/cases.hpp"
+#include "tests/support/random.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace {
@@ -172,6 +177,118 @@ TEST(XInterpolator, WaitsWhenSomebodyElseEmptiesTheQueue) {
   append(&rig.queue, &other);
   EXPECT_EQ(rig.at(7), XPhase::Following);
   EXPECT_NEAR(rig.y(), 3, 1e-12);
+}
+
+/// A random path along X, and its place at each X.
+struct Along {
+  explicit Along(stride::test::Random &random, bool forward) {
+    double x = random.uniform(-20, 20);
+    double y = random.uniform(-5, 5);
+    const double sign = forward ? 1 : -1;
+    const int count = 3 + random.below(12);
+    for (int i = 0; i < count; ++i) {
+      const double way = sign * random.magnitude(-3, 1.3);
+      const double rise = random.uniform(-5, 5);
+      PathObject o = line(x, y, x + way, y + rise);
+      o.sourceLine = i;
+      std::function<double(double)> at = [=](double u) { return y + rise * (u - x) / way; };
+      const int kind = random.below(5);
+      if (kind == 0) { // half a circle up or down
+        const bool up = random.chance(0.5);
+        o = line(x, y, x + way, y);
+        o.sourceLine = i;
+        o.moveType = up == forward ? MoveType::Clockwise : MoveType::Counterclockwise;
+        o.shape[0] = x + way / 2;
+        o.shape[1] = y;
+        o.shape[2] = std::fabs(way) / 2;
+        o.parameterRange[0] = forward ? 180 : 0;
+        o.parameterRange[1] = up == forward ? 180 : -180;
+        at = [=](double u) {
+          const double square = (u - x) * (x + way - u);
+          return y + (up ? 1 : -1) * std::sqrt(std::max(square, 0.0));
+        };
+      } else if (kind == 1) {
+        const double a = random.uniform(-8, 8);
+        const double c[8] = {x, way, 0, 0, y, rise + a, -3 * a, 2 * a};
+        o.moveType = MoveType::Spline;
+        std::copy(std::begin(c), std::end(c), std::begin(o.shape));
+        at = [=](double u) {
+          const double t = (u - x) / way;
+          return y + t * (rise + a + t * (-3 * a + t * 2 * a));
+        };
+      } else if (kind == 2 && i > 0) {
+        PathObject function = line(x, y, x, y);
+        function.moveType = MoveType::Function;
+        path.push_back(function);
+      }
+      path.push_back(o);
+      places.push_back({x, x + way, at});
+      x += way;
+      y = o.end.coordinate[kAxisY];
+    }
+  }
+  struct Piece {
+    double from, to;
+    std::function<double(double)> at;
+  };
+  std::vector<PathObject> path;
+  std::vector<Piece> places; ///< By sourceLine.
+};
+
+/// A workpiece that comes, goes back, jumps and stands; objects that come late.
+void followCase(uint64_t seed) {
+  SCOPED_TRACE(seed);
+  stride::test::Random random(seed);
+  const bool forward = random.chance(0.5);
+  const double sign = forward ? 1 : -1;
+  const Along along(random, forward);
+  Rig rig({}, false);
+  size_t fed = 0;
+  double x = along.places.front().from - sign * 2;
+  double way = 0;
+  int source = -1;
+  int done = -1;
+  XPhase phase = XPhase::Waiting;
+  for (int cycle = 0; cycle < 3000 && phase != XPhase::Done; ++cycle) {
+    while (fed < along.path.size() && !isFull(&rig.queue) && random.chance(0.3))
+      append(&rig.queue, &along.path[fed++]);
+    rig.queue.endOfList = fed == along.path.size() ? 1 : 0;
+    x += sign * random.uniform(-0.3, 0.5) * random.magnitude(-3, 1);
+    phase = rig.at(x, forward);
+    ASSERT_NE(phase, XPhase::Failed);
+    way += rig.follower.length;
+    if (rig.follower.source < 0)
+      continue;
+    EXPECT_GE(rig.follower.source, source); // it never goes back to what is done
+    source = rig.follower.source;
+    const Along::Piece &piece = along.places[static_cast<size_t>(source)];
+    const double here = rig.follower.position.coordinate[kAxisX];
+    const double wanted =
+        forward ? std::clamp(x, piece.from, piece.to) : std::clamp(x, piece.to, piece.from);
+    if (sign * x >= sign * piece.to)
+      done = source;
+    EXPECT_NEAR(here, done == source ? piece.to : wanted, 1e-9);
+    EXPECT_NEAR(rig.y(), piece.at(here), 2e-6) << "x " << here << " source " << source;
+    const bool waits = sign * x < sign * piece.from || done == source;
+    EXPECT_EQ(phase != XPhase::Following, waits);
+  }
+  EXPECT_EQ(phase, XPhase::Done);
+  EXPECT_EQ(rig.y(), along.path.back().end.coordinate[kAxisY]);
+  double least = 0;
+  for (const PathObject &o : along.path)
+    least += std::hypot(o.end.coordinate[kAxisX] - o.start.coordinate[kAxisX],
+                        o.end.coordinate[kAxisY] - o.start.coordinate[kAxisY]);
+  EXPECT_GE(way, least * (1 - 1e-9));
+}
+
+TEST(XInterpolator, IsOnThePathWhateverTheWorkpieceDoes) {
+  const int cases = stride::test::casesOf(1000);
+  for (int i = 0; i < cases && !HasFailure(); ++i)
+    followCase(static_cast<uint64_t>(i));
+}
+
+TEST(XInterpolator, IsOnThePathWhereItOnceWasNot) {
+  followCase(1157); // Newton's steps went to and fro around a bend, and X was off by 5e-3
 }
 
 } // namespace

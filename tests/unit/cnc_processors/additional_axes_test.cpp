@@ -345,6 +345,32 @@ TEST(LimitDynamics, HoldOnACircle) {
   EXPECT_GT(l.acceleration, 15);
 }
 
+/// A bend much shorter than a 32nd of the curve counts, too.
+TEST(LimitDynamics, HoldInASharpBend) {
+  for (const double width : {1.0, 0.3, 0.1, 0.03}) {
+    // x = 3 (t - 1/2)^2 - 6 (t - 1/2)^3, y = width (t - 1/2): nearly a cusp in the middle.
+    PathObject o = object(MoveType::Spline, {1.5, -0.5 * width, 0}, {0, 0.5 * width, 0});
+    const double c[8] = {1.5, -7.5, 12, -6, -0.5 * width, width, 0, 0};
+    std::copy(std::begin(c), std::end(c), std::begin(o.shape));
+    o.acceleration = o.deceleration = 1e6;
+    const PathObject l = limited(o, 3, 0, 40);
+    double most = 0;
+    for (int i = 1; i < 100000; ++i) {
+      const double t = i / 1e5;
+      const Point d{c[1] + t * (2 * c[2] + t * 3 * c[3]), width, 0};
+      const Point dd{2 * c[2] + t * 6 * c[3], 0, 0};
+      const double speed = sizeOf(d);
+      const Point tangent = d * (1 / speed);
+      const Point bend = (dd - tangent * inner(dd, tangent)) * (1 / (speed * speed));
+      for (size_t axis = 0; axis < 2; ++axis)
+        most = std::max(most, std::abs(bend[axis]) * l.velocity * l.velocity +
+                                  std::abs(tangent[axis]) * l.acceleration);
+    }
+    EXPECT_LE(most, 40 * (1 + 1e-3)) << width;
+    EXPECT_GT(most, 20) << width;
+  }
+}
+
 TEST(LimitDynamics, RefusesWhatIsNoLimit) {
   for (const double bad : {-1.0, std::nan(""), HUGE_VAL}) {
     LimitDynamics limit{};

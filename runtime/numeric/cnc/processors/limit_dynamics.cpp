@@ -10,8 +10,10 @@ using exact::smaller;
 
 /// Of an axis's acceleration, what bends of the path may take; the rest is for changes of velocity.
 constexpr double kBendShare = 0.5;
-/// Parts of an object that is neither straight nor an arc. Always as many, so that a call takes
-/// about as long whatever the object is.
+/// Parts of an object that is neither straight nor an arc, at most, so that a call is never long.
+/// They are as long as the object is even: a curve may bend sharply at a place of its own.
+constexpr int32_t kMostParts = 256;
+/// Of what these have left over.
 constexpr int32_t kParts = 32;
 
 /// What the axes' limits make of a whole object.
@@ -21,23 +23,32 @@ struct Bounds {
   double across = 0.0;               ///< Likewise, of the square of the velocity.
 };
 
+void add(Bounds &bounds, const path::Strip &strip) noexcept {
+  bounds.along = larger(bounds.along, strip.along);
+  bounds.across = larger(bounds.across, strip.across);
+  bounds.ceiling = smaller(bounds.ceiling, strip.ceiling);
+}
+
 Bounds boundsOf(const path::Segment &segment, const path::AxesLimits &limits) noexcept {
   Bounds bounds;
+  path::Strip strip{};
   const bool isArc = !segment.isStill && segment.shape.kind == path::ShapeKind::Arc;
   if (isArc && segment.profile == 0 && segment.bent == 0) {
-    path::Strip strip{};
     path::limitArc(segment, limits, strip);
     return {strip.ceiling, strip.along, strip.across};
   }
-  const bool straight = segment.isStill || segment.shape.kind == path::ShapeKind::Line;
-  const int32_t parts = straight && segment.profile == 0 && segment.bent == 0 ? 1 : kParts;
-  const double part = segment.length / parts;
-  for (int32_t i = 0; i < parts; ++i) {
-    path::Strip strip{};
-    path::limitBetween(segment, limits, part * i, part * (i + 1), strip);
-    bounds.along = larger(bounds.along, strip.along);
-    bounds.across = larger(bounds.across, strip.across);
-    bounds.ceiling = smaller(bounds.ceiling, strip.ceiling);
+  double from = 0.0;
+  for (int32_t i = 0; i < kMostParts && from < segment.length; ++i) {
+    const double to = path::limitStrip(segment, limits, from, strip);
+    add(bounds, strip);
+    if (!(to > from))
+      break;
+    from = to;
+  }
+  const double part = (segment.length - from) / kParts;
+  for (int32_t i = 0; i < kParts && part > 0.0; ++i) {
+    path::limitBetween(segment, limits, from + part * i, from + part * (i + 1), strip);
+    add(bounds, strip);
   }
   return bounds;
 }
