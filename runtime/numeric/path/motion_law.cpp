@@ -151,6 +151,18 @@ double steadyTime(const Motion &motion, double from) noexcept {
   return exact::kInfinity;
 }
 
+void restAtStop(Motion &motion, WayState &state) noexcept {
+  constexpr uint8_t kAtStop = kFinal | kGate;
+  const Strip *const strip = endedByRounding(motion.course, state.way);
+  if (strip == nullptr || !strip->stop || (markAt(motion.law, motion.seek) & kAtStop) != 0)
+    return;
+  // A strip that is as short as rounding has not been gone over.
+  if (!(beginOf(motion.course, stripOf(motion.course, state.way)) < state.way))
+    return;
+  state.way = endAt(motion.law, motion.seek) = strip->end;
+  markAt(motion.law, motion.seek) |= static_cast<uint8_t>(kFinal | (strip->gate ? kGate : 0));
+}
+
 void cutLaw(Motion &motion) noexcept {
   Law &law = motion.law;
   if (motion.seek < law.next) {

@@ -290,15 +290,6 @@ double stoppingLength(const Motion &motion, const WayState &state, const Strip &
   return v * a / jerk + a * a * a / (3.0 * jerk * jerk) + 0.5 * peak * time;
 }
 
-/// A rest just before a stop by rounding is at the stop: a plan from there would go past it.
-void restAtStop(Motion &motion, WayState &state) noexcept {
-  const Strip *const strip = endedByRounding(motion.course, state.way);
-  if (strip == nullptr || !strip->stop)
-    return;
-  state.way = endAt(motion.law, motion.seek) = strip->end;
-  markAt(motion.law, motion.seek) |= static_cast<uint8_t>(kFinal | (strip->gate ? kGate : 0));
-}
-
 /// The piece in which the motion is to be planned anew is found, and where in it.
 void takeOver(Motion &motion, double cut) noexcept {
   const TimePiece &piece = pieceAt(motion.law, motion.seek);

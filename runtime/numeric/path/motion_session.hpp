@@ -59,6 +59,10 @@ void goAsAsked(Motion &motion) noexcept;
 /// Where it jumps from one side to the other, there is none in between. [s]
 double steadyTime(const Motion &motion, double from) noexcept;
 
+/// A rest at the end of the piece that is sought, just before a stop by rounding, is at the stop: a
+/// plan from there would go past it.
+void restAtStop(Motion &motion, WayState &state) noexcept;
+
 /// The plan takes over: what the law has after that place goes.
 void cutLaw(Motion &motion) noexcept;
 
