@@ -111,6 +111,9 @@ void TypedPointers::find() {
   for (const auto &one : program_.libraries)
     if (typed_)
       library(*one);
+  for (const SlotPlace &slot : program_.slotPlaces) // VAR_CONFIG
+    if (typed_ && slot.decl != nullptr && slot.decl->init != nullptr)
+      expression(slot.decl->init);
 }
 
 void TypedPointers::library(const Library &library) {

@@ -104,6 +104,17 @@ TEST(TypedPointers, OneAddressOfUnknownTypeSpoilsAll) {
             "");
 }
 
+TEST(TypedPointers, InitialValuesOfTheConfigurationAreAddressesToo) {
+  const auto kept = [](const std::string &type) {
+    return keptBy("VAR_GLOBAL x : " + type +
+                      "; END_VAR\nCONFIGURATION Machine VAR_CONFIG Main.d : " +
+                      "POINTER TO DINT := ADR(x); END_VAR END_CONFIGURATION\n",
+                  "d : POINTER TO DINT;", "", "sum := sum + d^; p := p^.next;");
+  };
+  EXPECT_EQ(kept("DINT"), kBoth);
+  EXPECT_EQ(kept("UDINT"), "");
+}
+
 TEST(TypedPointers, WhatEndsWithItsCallSpoilsAll) {
   const auto kept = [](const std::string &more) {
     return keptBy(more, "", "", "sum := sum + p^.key; p := p^.next;");
