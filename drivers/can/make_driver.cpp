@@ -8,8 +8,11 @@
 #include "drivers/can/socket/socket_can_port.hpp"
 #include "drivers/dummy/dummy_drive.hpp"
 
+#include <net/if.h>
+
 #include <ctime>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -29,14 +32,17 @@ private:
   SimulatedNetwork &network_; ///< The driver's port.
 };
 
-/// At an interface of the system, as its only master.
+/// At an interface of the system, as its only master; one that is not there yet has no drives.
 class RealCanDriver final : public CanDriver {
 public:
   RealCanDriver(const bus::GroupSetup &setup, const CanSetup &can, std::unique_ptr<Port> port)
-      : CanDriver(setup, std::move(port)), lock_(can.interface) {}
+      : CanDriver(setup, std::move(port)) {
+    if (::if_nametoindex(can.interface.c_str()) != 0)
+      lock_.emplace(can.interface);
+  }
 
 private:
-  InterfaceLock lock_;
+  std::optional<InterfaceLock> lock_;
 };
 
 /// On a recorded bus: says where it goes another way than then.
