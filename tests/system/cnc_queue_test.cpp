@@ -105,9 +105,9 @@ TEST_F(CncQueue, MakesFilesInTheFolderOfTheRun) {
                                          "END_PROGRAM\n");
   writeFile(scratch_.path() / "stride.toml",
             "[[cnc]]\nfile = \"a.cnc\"\ncompile = \"queue-file\"\n");
-  const ProcessResult run =
-      runProcess({STRIDE_BINARY_DIR "/stride", "sim", "--for", "T#20ms", "--files", "elsewhere"},
-                 scratch_.path());
+  const ProcessResult run = runProcess({std::string(STRIDE_BINARY_DIR) + "/stride", "sim", "--for",
+                                        "T#20ms", "--files", "elsewhere"},
+                                       scratch_.path());
   EXPECT_EQ(run.exitCode, 0) << run.err;
   const std::string made = readFile(scratch_.path() / "elsewhere/cnc/a.queue");
   ASSERT_GT(made.size(), kHeader);

@@ -72,8 +72,8 @@ bool numberOf(const Scanner &s, double &value) noexcept {
 
 /// Whether the number of this word E is the exponent of the number before it.
 bool isExponentOf(const Scanner &s) noexcept {
-  return s.word.letter == 'E' && beginsWithSign(s) && s.decimals < 0 &&
-         isExponent(s.exponent, s.count - 1, s.digits[1]);
+  return s.exponent != Exponent::No && s.word.letter == 'E' && beginsWithSign(s) &&
+         s.decimals < 0 && isExponent(s.exponent, s.count - 1, s.digits[1]);
 }
 
 ScanEvent endNumber(Scanner &s) noexcept {
@@ -166,9 +166,8 @@ ScanEvent beginValue(Scanner &s, uint8_t c) noexcept {
 /// The first letter of a word.
 void beginWord(Scanner &s, uint8_t c) noexcept {
   const bool isSmall = c >= 'a';
-  const int32_t characters = s.count - (beginsWithSign(s) ? 1 : 0);
   s.exponent = s.endsInDigit && upper(c) == 'E'
-                   ? exponentBehind(characters, isSmall && !s.lowerCase)
+                   ? exponentBehind(s.count - (beginsWithSign(s) ? 1 : 0), isSmall && !s.lowerCase)
                    : Exponent::No;
   s.lowerCase = isSmall;
   s.state = ScanState::Letters;
