@@ -20,6 +20,7 @@ namespace {
 
 /// What is to be done of a project.
 struct Selection {
+  std::vector<std::string> names; ///< of all of them
   std::vector<std::string> plans; ///< unit tests, as stride-host is told
   std::vector<TraceTest> traces;
 };
@@ -31,23 +32,19 @@ Selection select(const Project &project, const std::string &filter) {
   Selection selection;
   for (size_t i = 0; i < project.tests().size(); ++i) {
     const TestBlock &one = project.tests()[i];
-    if (matches(one.name))
-      selection.plans.push_back(fmt::format("{};{};{};{};{};{}", i, one.cycleNs, one.timeoutNs,
-                                            project.sources().position(one.place).line, one.name,
-                                            project.sources().file(one.place.file).name()));
+    if (!matches(one.name))
+      continue;
+    selection.names.push_back(one.name);
+    selection.plans.push_back(fmt::format("{};{};{};{};{};{}", i, one.cycleNs, one.timeoutNs,
+                                          project.sources().position(one.place).line, one.name,
+                                          project.sources().file(one.place.file).name()));
   }
   for (const TraceTest &test : project.config().traceTests)
-    if (matches(test.name.text))
+    if (matches(test.name.text)) {
+      selection.names.push_back(test.name.text);
       selection.traces.push_back(test);
+    }
   return selection;
-}
-
-void list(const Project &project, const std::string &filter) {
-  for (const TestBlock &one : project.tests())
-    if (filter.empty() || ::fnmatch(filter.c_str(), one.name.c_str(), 0) == 0)
-      print(one.name + "\n");
-  for (const TraceTest &test : select(project, filter).traces)
-    print(test.name.text + "\n");
 }
 
 std::optional<BuildResult> buildQuickly(Project &project, ProgressLine &progress) {
@@ -104,9 +101,10 @@ int testCommand(const ProjectOptions &options, const TestOptions &test) {
     Project project(options.path, Purpose::Test, settingsOf(options), index);
     name = project.name();
     selection = select(project, test.filter);
-    const bool none = selection.plans.empty() && selection.traces.empty();
-    if (test.list)
-      list(project, test.filter);
+    const bool none = selection.names.empty();
+    for (const std::string &one : selection.names)
+      if (test.list)
+        print(one + "\n");
     ProgressLine progress;
     std::optional<BuildResult> result;
     const bool builds = !selection.plans.empty() || (none && test.filter.empty());

@@ -29,7 +29,11 @@ constexpr size_t kMostLines = 20; // of what a simulation that has failed has sa
 /// Before the test has run, or of one that cannot.
 TraceResult resultOf(const TraceTest &test, std::string problem = {}) {
   const bool isError = !problem.empty();
-  return {test.name.text, fmt::format("tests/{}.csv", test.name.text), std::move(problem), isError,
+  return {test.name.text,
+          fmt::format("tests/{}.csv", test.name.text),
+          std::move(problem),
+          isError,
+          false,
           0};
 }
 
@@ -59,7 +63,6 @@ public:
   TraceResult run(const TraceTest &test) {
     const auto start = std::chrono::steady_clock::now();
     TraceResult result = resultOf(test);
-    outcome_ = "ok";
     if (const std::optional<std::string> trace = simulate(test, result))
       judge(test, *trace, result);
     result.seconds =
@@ -67,15 +70,7 @@ public:
     return result;
   }
 
-  /// Of the last test: `ok`, `FAILED`, or what was written.
-  [[nodiscard]] const std::string &outcome() const { return outcome_; }
-
 private:
-  void fail(TraceResult &result, std::string text) {
-    outcome_ = "FAILED";
-    result.failure = std::move(text);
-  }
-
   std::vector<std::string> argumentsOf(const TraceTest &test, const fs::path &trace) const {
     std::vector<std::string> own = {"--quiet", "--for", formatInterval(test.durationNs), "--out",
                                     trace.string()};
@@ -94,19 +89,19 @@ private:
     std::optional<std::vector<std::string>> arguments =
         hostArgumentsOf(options_, "sim", application_, argumentsOf(test, file));
     if (!arguments) {
-      fail(result, "the simulation cannot begin"); // why has been shown
+      result.failure = "the simulation cannot begin"; // why has been shown
       return std::nullopt;
     }
     arguments->insert(arguments->begin(), hostProgram());
     const JobResult run = runJobs({{std::move(*arguments), test.name.text}}).front();
     if (run.status != 0) {
       result.isError = true;
-      fail(result, fmt::format("the simulation has failed:\n{}", beginningOf(run.output)));
+      result.failure = fmt::format("the simulation has failed:\n{}", beginningOf(run.output));
       return std::nullopt;
     }
     const std::optional<std::string> trace = readFile(file);
     if (!trace) {
-      fail(result, cannot("read", file));
+      result.failure = cannot("read", file);
       return std::nullopt;
     }
     return plot::rowsAt(*trace, test.everyNs);
@@ -117,7 +112,7 @@ private:
     const std::optional<std::string> expected = project_.read(result.expected, kMostTraceBytes);
     const bool isMissing = !expected && errno == ENOENT;
     if (!expected && !isMissing) {
-      fail(result, cannot("read", result.expected));
+      result.failure = cannot("read", result.expected);
       return;
     }
     const plot::TraceDifference difference =
@@ -127,9 +122,9 @@ private:
       return;
     }
     if (bless_) {
-      outcome_ = fmt::format("written to `{}`", result.expected);
-      if (!project_.write(result.expected, trace))
-        fail(result, cannot("written", result.expected));
+      result.isNew = project_.write(result.expected, trace);
+      if (!result.isNew)
+        result.failure = cannot("written", result.expected);
       return;
     }
     std::string text =
@@ -137,9 +132,10 @@ private:
     if (hideBuilds(project_) && project_.write(kept, trace))
       text += fmt::format("\n= the trace: `{}`",
                           (application_.folder / kept).lexically_normal().string());
-    fail(result, text + fmt::format("\n= if it is right, `stride test --bless --filter {}` writes "
-                                    "it to `{}`",
-                                    test.name.text, result.expected));
+    result.failure =
+        text + fmt::format("\n= if it is right, `stride test --bless --filter {}` writes "
+                           "it to `{}`",
+                           test.name.text, result.expected);
   }
 
   const ProjectOptions &options_;
@@ -147,12 +143,17 @@ private:
   bool bless_;
   OutputFolder project_;
   fs::path work_;
-  std::string outcome_;
 };
 
 void tell(const std::string &text) {
   print(text);
   std::fflush(stdout);
+}
+
+std::string outcomeOf(const TraceResult &result) {
+  if (!result.failure.empty())
+    return "FAILED";
+  return result.isNew ? fmt::format("written to `{}`", result.expected) : "ok";
 }
 
 std::string indented(std::string_view text) {
@@ -184,7 +185,7 @@ std::vector<TraceResult> runTraceTests(const ProjectOptions &options,
   for (const TraceTest &test : tests) {
     tell(fmt::format("trace {} ... ", test.name.text));
     results.push_back(runner.run(test));
-    tell(runner.outcome() + "\n");
+    tell(outcomeOf(results.back()) + "\n");
     failed += results.back().failure.empty() ? 0 : 1;
     if (!results.back().failure.empty())
       tell(indented(results.back().failure));

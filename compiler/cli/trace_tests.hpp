@@ -17,6 +17,7 @@ struct TraceResult {
   std::string expected; ///< the file of the trace that is expected, in the project
   std::string failure;  ///< lines of text; empty: the test has passed
   bool isError = false; ///< the simulation has failed
+  bool isNew = false;   ///< the trace has become what is expected
   double seconds = 0;   ///< real
 };
 

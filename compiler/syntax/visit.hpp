@@ -153,6 +153,19 @@ template <class Visit> void walk(Expr *expr, Visit &&visit) {
       walk((*node)->right, visit);
 }
 
+/// Calls `visit(std::span<Argument>)` for each list of arguments of FB_Init that stands in the
+/// variable's declaration: of its instance, or of the elements of its array.
+template <class Visit> void forEachConstruction(const VarDecl *variable, Visit &&visit) {
+  const TypeExpr *type = variable->type;
+  while (type != nullptr && type->kind == TypeExprKind::Array)
+    type = as<ArrayTypeExpr>(type)->element;
+  if (type == nullptr || type->kind != TypeExprKind::Named)
+    return;
+  visit(as<NamedTypeExpr>(type)->arguments);
+  for (const std::span<Argument> &element : as<NamedTypeExpr>(type)->elements)
+    visit(element);
+}
+
 /// Calls `visit(Stmt *)` for each statement of the block and of the blocks inside of it, each
 /// before what it holds. A `visit` that gives a bool says whether to look inside.
 template <class Visit> void walkStatements(Block block, Visit &&visit) {

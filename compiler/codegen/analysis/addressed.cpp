@@ -101,14 +101,8 @@ void Addressed::declaration(const VarSymbol *variable) {
     return;
   if (variable->decl->init != nullptr)
     initial(variable, variable->decl->init);
-  const TypeExpr *type = variable->decl->type;
-  while (type != nullptr && type->kind == TypeExprKind::Array)
-    type = as<ArrayTypeExpr>(type)->element;
-  if (type == nullptr || type->kind != TypeExprKind::Named)
-    return;
-  constructing(as<NamedTypeExpr>(type)->arguments);
-  for (const std::span<Argument> &element : as<NamedTypeExpr>(type)->elements)
-    constructing(element);
+  forEachConstruction(variable->decl,
+                      [this](std::span<const Argument> list) { constructing(list); });
 }
 
 void Addressed::initial(const VarSymbol *variable, Expr *init) {

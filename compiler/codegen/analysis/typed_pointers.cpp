@@ -196,14 +196,7 @@ void TypedPointers::declaration(const VarSymbol *v) {
     return;
   if (v->decl->init != nullptr)
     initial(v->decl->init);
-  const TypeExpr *type = v->decl->type;
-  while (type != nullptr && type->kind == TypeExprKind::Array)
-    type = as<ArrayTypeExpr>(type)->element;
-  if (type == nullptr || type->kind != TypeExprKind::Named)
-    return;
-  constructing(as<NamedTypeExpr>(type)->arguments);
-  for (const std::span<Argument> &element : as<NamedTypeExpr>(type)->elements)
-    constructing(element);
+  forEachConstruction(v->decl, [this](std::span<const Argument> list) { constructing(list); });
 }
 
 void TypedPointers::initial(Expr *init) {

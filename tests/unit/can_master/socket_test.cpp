@@ -202,8 +202,7 @@ TEST(CanLinks, WhateverTheAnswerIsNothingIsReadBeyondIt) {
 
 TEST(CanLinks, OfTheLoopbackInterface) {
   const CanLink link = readLink(::if_nametoindex("lo"));
-  if (!link.known)
-    GTEST_SKIP() << "no netlink here";
+  ASSERT_TRUE(link.known) << "no netlink here";
   EXPECT_EQ(link.bitRate, 0U);
   EXPECT_FALSE(link.hasState);
   EXPECT_FALSE(readLink(99999).known);
