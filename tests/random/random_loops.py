@@ -18,7 +18,7 @@ import sys
 from loop_parts import FUEL, PRINTED, STOPS, TYPES, Array, Leave, Stop
 from loop_statements import Statements
 from model import NUMBERS, Skip, limits
-from seeds import try_seeds
+from seeds import agree_in_both_modes, try_seeds
 
 
 class Case(Statements):
@@ -228,15 +228,7 @@ def check(options, seed):
     """How many cases agree, or None"""
     rng = random.Random(seed)
     cases = without_errors(options, options.keep / f"loops{seed}.st", some_cases(rng, options.count))
-    good = True
-    for arguments, chosen in (([], cases), (["--unchecked"], [case for case in cases if case.stop is None])):
-        source = options.keep / f"loops{seed}{'u' if arguments else ''}.st"
-        source.write_text("\n".join(project(chosen, options.count)), encoding="utf-8")
-        if run(options, source, chosen, arguments):
-            source.unlink()
-        else:
-            good = False
-    return len(cases) if good else None
+    return agree_in_both_modes(options, f"loops{seed}", cases, lambda chosen: project(chosen, options.count), run)
 
 
 def add_options(parser):

@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 from model import wrap
-from seeds import try_seeds
+from seeds import agree_in_both_modes, try_seeds
 
 STOPS = {None: "RTSEXCPT_NOEXCEPTION", "null": "RTSEXCPT_ACCESS_VIOLATION"}
 FUEL = 3000
@@ -460,15 +460,7 @@ def run(options, source, cases, arguments):
 def check(options, seed):
     """How many cases agree, or None"""
     cases, common = some_cases(random.Random(seed), options.count)
-    good = True
-    for arguments, chosen in (([], cases), (["--unchecked"], [case for case in cases if case.stop is None])):
-        source = options.keep / f"pointers{seed}{'u' if arguments else ''}.st"
-        source.write_text("\n".join(project(chosen, common, options.count)), encoding="utf-8")
-        if run(options, source, chosen, arguments):
-            source.unlink()
-        else:
-            good = False
-    return len(cases) if good else None
+    return agree_in_both_modes(options, f"pointers{seed}", cases, lambda chosen: project(chosen, common, options.count), run)
 
 
 def add_options(parser):

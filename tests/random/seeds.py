@@ -17,3 +17,17 @@ def try_seeds(check, seeds, what, add_options):
     results = [check(options, seed) for seed in range(first, last + 1)]
     print(f"{len(results) - results.count(None)} of {len(results)} projects agree, {sum(filter(None, results))} {what}")
     return 1 if None in results else 0
+
+
+def agree_in_both_modes(options, name, cases, text, run):
+    """How many cases agree with checks and, those that do not stop, without them; None where one does not. `text(cases)` gives the
+    lines of a project, of which the files that fail are kept; `run(options, source, cases, arguments)` says whether it agrees."""
+    good = True
+    for arguments, chosen in (([], cases), (["--unchecked"], [case for case in cases if case.stop is None])):
+        source = options.keep / f"{name}{'u' if arguments else ''}.st"
+        source.write_text("\n".join(text(chosen)), encoding="utf-8")
+        if run(options, source, chosen, arguments):
+            source.unlink()
+        else:
+            good = False
+    return len(cases) if good else None

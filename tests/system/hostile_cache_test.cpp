@@ -169,12 +169,13 @@ TEST_F(SharedCache, AFileThatMayNotGrowEndsNothing) {
 }
 
 TEST_F(SharedCache, AFolderWithoutOurMarkIsSomebodyElses) {
-  write("cache/stride/v1/work/thesis.txt", "years of work");
+  const std::string thesis = (fs::path("cache/stride/v1") / "work" / "thesis.txt").string();
+  write(thesis, "years of work");
   fs::permissions(at("cache/stride"), fs::perms::owner_all);
   fs::permissions(at("cache/stride/v1"), fs::perms::owner_all);
   expectRun(false,
             {{"XDG_CACHE_HOME", at("cache").string()}, {"TMPDIR", scratch_.path().string()}});
-  EXPECT_EQ(read("cache/stride/v1/work/thesis.txt"), "years of work");
+  EXPECT_EQ(read(thesis), "years of work");
   EXPECT_FALSE(fs::exists(at("cache/stride/v1/CACHEDIR.TAG")));
 }
 
